@@ -1,0 +1,159 @@
+//! Linear colour, and the bytes that a display wants.
+
+use core::ops::{Add, AddAssign, Mul};
+
+use crate::scalar::Scalar;
+
+/// A colour or an amount of light: linear red, green and blue.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rgb<S> {
+    /// Red.
+    pub r: S,
+    /// Green.
+    pub g: S,
+    /// Blue.
+    pub b: S,
+}
+
+impl<S> Rgb<S> {
+    /// The colour of three parts.
+    pub const fn new(r: S, g: S, b: S) -> Self {
+        Self { r, g, b }
+    }
+}
+
+impl<S: Scalar> Rgb<S> {
+    /// No light.
+    pub const BLACK: Self = Self::new(S::ZERO, S::ZERO, S::ZERO);
+    /// One of each.
+    pub const WHITE: Self = Self::new(S::ONE, S::ONE, S::ONE);
+
+    /// Each part by itself.
+    #[inline]
+    pub fn map(self, f: impl Fn(S) -> S) -> Self {
+        Self::new(f(self.r), f(self.g), f(self.b))
+    }
+
+    /// The parts in order.
+    #[inline]
+    pub fn to_array(self) -> [S; 3] {
+        [self.r, self.g, self.b]
+    }
+
+    /// The greatest part.
+    #[inline]
+    pub fn max_part(self) -> S {
+        self.r.max(self.g).max(self.b)
+    }
+
+    /// Every part is finite.
+    pub fn is_finite(self) -> bool {
+        self.r.is_finite() && self.g.is_finite() && self.b.is_finite()
+    }
+
+    /// No light at all.
+    #[inline]
+    pub fn is_black(self) -> bool {
+        self.r == S::ZERO && self.g == S::ZERO && self.b == S::ZERO
+    }
+
+    /// Three bytes, each part clamped to 0..=1 and sent through the transfer curve.
+    pub fn to_rgb8(self, transfer: Transfer) -> [u8; 3] {
+        self.to_array().map(|part| transfer.encode(part.to_unit_bits()))
+    }
+}
+
+impl<S: Scalar> Add for Rgb<S> {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self::new(self.r + other.r, self.g + other.g, self.b + other.b)
+    }
+}
+
+impl<S: Scalar> AddAssign for Rgb<S> {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<S: Scalar> Mul<S> for Rgb<S> {
+    type Output = Self;
+    #[inline]
+    fn mul(self, factor: S) -> Self {
+        self.map(|part| part * factor)
+    }
+}
+
+impl<S: Scalar> Mul for Rgb<S> {
+    type Output = Self;
+    #[inline]
+    fn mul(self, other: Self) -> Self {
+        Self::new(self.r * other.r, self.g * other.g, self.b * other.b)
+    }
+}
+
+/// How linear light becomes a byte.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Transfer {
+    /// The curve of IEC 61966-2-1, to the nearest code.
+    #[default]
+    Srgb,
+    /// In proportion, to the nearest code.
+    Linear,
+}
+
+impl Transfer {
+    /// The byte for a part of light in units of 2⁻³².
+    pub fn encode(self, bits: u32) -> u8 {
+        match self {
+            Self::Srgb => {
+                // The number of thresholds at or below: binary search over 255 of them.
+                SRGB_THRESHOLDS.partition_point(|&threshold| threshold <= bits) as u8
+            }
+            Self::Linear => {
+                let scaled = u64::from(bits) * 255 + (1 << 31);
+                (scaled >> 32) as u8
+            }
+        }
+    }
+}
+
+/// The linear light, in units of 2⁻³² and rounded up, from which on each code after 0 is the
+/// nearest in sRGB: the inverse of the curve at (code − ½) / 255.
+#[rustfmt::skip]
+static SRGB_THRESHOLDS: [u32; 255] = [
+    651820, 1955458, 3259097, 4562735, 5866374, 7170012, 8473651, 9777289,
+    11080927, 12384566, 13693649, 15072155, 16528387, 18063551, 19678822, 21375354,
+    23154273, 25016685, 26963674, 28996302, 31115614, 33322635, 35618372, 38003817,
+    40479942, 43047709, 45708060, 48461926, 51310223, 54253855, 57293711, 60430671,
+    63665601, 66999356, 70432781, 73966708, 77601962, 81339356, 85179694, 89123770,
+    93172371, 97326272, 101586243, 105953043, 110427424, 115010131, 119701900, 124503460,
+    129415534, 134438836, 139574075, 144821952, 150183163, 155658395, 161248333, 166953651,
+    172775021, 178713107, 184768569, 190942061, 197234230, 203645720, 210177169, 216829209,
+    223602469, 230497571, 237515134, 244655771, 251920091, 259308700, 266822197, 274461179,
+    282226237, 290117958, 298136927, 306283723, 314558921, 322963093, 331496808, 340160629,
+    348955118, 357880831, 366938322, 376128141, 385450834, 394906946, 404497016, 414221580,
+    424081173, 434076325, 444207563, 454475412, 464880392, 475423022, 486103818, 496923292,
+    507881954, 518980311, 530218867, 541598123, 553118579, 564780730, 576585071, 588532092,
+    600622281, 612856125, 625234108, 637756710, 650424411, 663237686, 676197010, 689302855,
+    702555690, 715955983, 729504198, 743200799, 757046245, 771040997, 785185510, 799480238,
+    813925635, 828522150, 843270232, 858170327, 873222880, 888428333, 903787126, 919299699,
+    934966488, 950787927, 966764451, 982896491, 999184475, 1015628832, 1032229988, 1048988367,
+    1065904391, 1082978482, 1100211059, 1117602539, 1135153338, 1152863871, 1170734550, 1188765786,
+    1206957989, 1225311567, 1243826925, 1262504470, 1281344605, 1300347730, 1319514248, 1338844556,
+    1358339052, 1377998133, 1397822192, 1417811624, 1437966819, 1458288169, 1478776062, 1499430887,
+    1520253029, 1541242873, 1562400803, 1583727203, 1605222452, 1626886930, 1648721017, 1670725088,
+    1692899522, 1715244691, 1737760970, 1760448731, 1783308346, 1806340183, 1829544612, 1852922001,
+    1876472715, 1900197120, 1924095581, 1948168459, 1972416118, 1996838917, 2021437216, 2046211374,
+    2071161747, 2096288694, 2121592567, 2147073723, 2172732513, 2198569290, 2224584405, 2250778208,
+    2277151048, 2303703273, 2330435229, 2357347263, 2384439720, 2411712943, 2439167276, 2466803060,
+    2494620637, 2522620346, 2550802527, 2579167519, 2607715657, 2636447279, 2665362720, 2694462314,
+    2723746395, 2753215296, 2782869348, 2812708883, 2842734230, 2872945718, 2903343676, 2933928431,
+    2964700310, 2995659638, 3026806741, 3058141941, 3089665563, 3121377928, 3153279359, 3185370175,
+    3217650697, 3250121244, 3282782134, 3315633684, 3348676211, 3381910032, 3415335461, 3448952812,
+    3482762399, 3516764536, 3550959533, 3585347702, 3619929355, 3654704799, 3689674346, 3724838302,
+    3760196976, 3795750674, 3831499703, 3867444367, 3903584973, 3939921822, 3976455220, 4013185468,
+    4050112869, 4087237723, 4124560331, 4162080993, 4199800007, 4237717674, 4275834290,
+];

@@ -1,0 +1,210 @@
+//! `f32` and `f64` as scalars, on glam's plain `Vec3` and `DVec3`.
+//!
+//! Only addition, subtraction, multiplication, division and the square root are used on
+//! the path of a ray; IEEE 754 makes these the same everywhere.
+
+use crate::math::{double, single};
+use crate::scalar::{Scalar, Vector};
+
+/// Dekker's split of each coordinate of a direction into two halves that multiply exactly.
+#[derive(Clone, Copy, Debug)]
+pub struct SplitDir<F> {
+    high: [F; 3],
+    low: [F; 3],
+}
+
+macro_rules! float {
+    ($float:ident, $vec:ty, $math:ident, $name:literal, $split:literal, $root:literal, $coord:literal, $length:literal, $bytes:literal) => {
+        impl Vector for $vec {
+            type Scalar = $float;
+            const ZERO: Self = <$vec>::ZERO;
+
+            #[inline]
+            fn new(x: $float, y: $float, z: $float) -> Self {
+                <$vec>::new(x, y, z)
+            }
+            #[inline]
+            fn x(self) -> $float {
+                self.x
+            }
+            #[inline]
+            fn y(self) -> $float {
+                self.y
+            }
+            #[inline]
+            fn z(self) -> $float {
+                self.z
+            }
+            #[inline]
+            fn dot(self, other: Self) -> $float {
+                self.x * other.x + self.y * other.y + self.z * other.z
+            }
+            #[inline]
+            fn cross(self, other: Self) -> Self {
+                <$vec>::new(
+                    self.y * other.z - self.z * other.y,
+                    self.z * other.x - self.x * other.z,
+                    self.x * other.y - self.y * other.x,
+                )
+            }
+        }
+
+        impl Scalar for $float {
+            type Vec3 = $vec;
+            type Aim = SplitDir<$float>;
+            type Bytes = [u8; $bytes];
+
+            const NAME: &'static str = $name;
+            const ZERO: Self = 0.0;
+            const HALF: Self = 0.5;
+            const ONE: Self = 1.0;
+            const TWO: Self = 2.0;
+            const PI: Self = core::$float::consts::PI;
+            const EPSILON: Self = $float::EPSILON;
+            const EPSILON_ROOT: Self = $root;
+            const FAR: Self = $float::INFINITY;
+            const TINY: Self = $float::MIN_POSITIVE;
+            const COORD_MAX: Self = $coord;
+            const LENGTH_MIN: Self = $length;
+
+            #[inline]
+            fn from_i32(n: i32) -> Self {
+                n as $float
+            }
+            #[inline]
+            fn from_ratio(n: i32, d: i32) -> Self {
+                n as $float / d as $float
+            }
+            #[inline]
+            fn from_f64(x: f64) -> Self {
+                x as $float
+            }
+            #[inline]
+            fn to_f64(self) -> f64 {
+                self.into()
+            }
+            #[inline]
+            fn to_le_bytes(self) -> Self::Bytes {
+                self.to_bits().to_le_bytes()
+            }
+            #[inline]
+            fn to_unit_bits(self) -> u32 {
+                // The cast saturates, and takes what is not a number to 0.
+                (self * 4_294_967_296.0) as u32
+            }
+            #[inline]
+            fn floor_i64(self) -> i64 {
+                $math::floor(self) as i64
+            }
+            #[inline]
+            fn floor(self) -> Self {
+                $math::floor(self)
+            }
+            #[inline]
+            fn is_finite(self) -> bool {
+                self - self == 0.0
+            }
+            #[inline]
+            fn sqrt(self) -> Self {
+                if self > 0.0 { $math::sqrt(self) } else { 0.0 }
+            }
+            fn sin_cos(self) -> (Self, Self) {
+                $math::sin_cos(self)
+            }
+            fn atan2(self, x: Self) -> Self {
+                $math::atan2(self, x)
+            }
+            fn acos(self) -> Self {
+                $math::acos(Scalar::clamp(self, -1.0, 1.0))
+            }
+            fn exp(self) -> Self {
+                $math::exp(self)
+            }
+            fn pow(self, e: Self) -> Self {
+                $math::pow(self, e)
+            }
+
+            #[inline]
+            fn det2(a: Self, b: Self, c: Self, d: Self) -> Self {
+                let (p, q) = (a * b, c * d);
+                if p != q {
+                    // Rounding is monotone, so the sign is that of the exact difference.
+                    return p - q;
+                }
+                let ((a_high, a_low), (b_high, b_low)) = ($float::split(a), $float::split(b));
+                let ((c_high, c_low), (d_high, d_low)) = ($float::split(c), $float::split(d));
+                let p_error = $float::product_error(p, a_high, a_low, b_high, b_low);
+                let q_error = $float::product_error(q, c_high, c_low, d_high, d_low);
+                p_error - q_error
+            }
+
+            #[inline]
+            fn aim(dir: $vec) -> SplitDir<$float> {
+                let [x, y, z] = dir.to_array().map($float::split);
+                SplitDir { high: [x.0, y.0, z.0], low: [x.1, y.1, z.1] }
+            }
+
+            #[inline]
+            fn recentre(
+                origin: $vec,
+                centre: $vec,
+                dir: $vec,
+                aim: &SplitDir<$float>,
+                k: Self,
+            ) -> $vec {
+                let (k_high, k_low) = $float::split(k);
+                let ([hx, hy, hz], [lx, ly, lz]) = (aim.high, aim.low);
+                let along = |o: $float, c: $float, d: $float, high: $float, low: $float| {
+                    // o − c and k·d, each as an unevaluated sum of two numbers.
+                    let f = o - c;
+                    let f_part = f - o;
+                    let f_error = (o - (f - f_part)) - (c + f_part);
+                    let p = k * d;
+                    let p_error = $float::product_error(p, k_high, k_low, high, low);
+                    let sum = f + p;
+                    let p_part = sum - f;
+                    let sum_error = (f - (sum - p_part)) + (p - p_part);
+                    sum + (sum_error + (f_error + p_error))
+                };
+                <$vec>::new(
+                    along(origin.x, centre.x, dir.x, hx, lx),
+                    along(origin.y, centre.y, dir.y, hy, ly),
+                    along(origin.z, centre.z, dir.z, hz, lz),
+                )
+            }
+        }
+
+        impl ErrorFree for $float {
+            #[inline]
+            fn split(self) -> (Self, Self) {
+                let c = $split * self;
+                let high = c - (c - self);
+                (high, self - high)
+            }
+            #[inline]
+            fn product_error(p: Self, ah: Self, al: Self, bh: Self, bl: Self) -> Self {
+                ((ah * bh - p) + ah * bl + al * bh) + al * bl
+            }
+        }
+    };
+}
+
+/// The halves of a number, and what a product rounded away (T. J. Dekker, "A floating-point
+/// technique for extending the available precision", 1971).
+trait ErrorFree: Sized {
+    fn split(self) -> (Self, Self);
+    fn product_error(p: Self, ah: Self, al: Self, bh: Self, bl: Self) -> Self;
+}
+
+float!(
+    f32,
+    glam::Vec3,
+    single,
+    "f32",
+    4097.0,
+    0.00048828125,
+    1.125899906842624e15,
+    8.881784197001252e-16,
+    4
+);
+float!(f64, glam::DVec3, double, "f64", 134_217_729.0, 1.4901161193847656e-8, 1e120, 1e-120, 8);

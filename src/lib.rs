@@ -1,0 +1,76 @@
+//! An allocation-free, deterministic recursive ray tracer for microcontrollers and kernels:
+//! the same bits on every target.
+//!
+//! The modules are listed in the order of the data, from a number to a picture; each knows
+//! those before it and none after:
+//!
+//! | module | holds |
+//! | --- | --- |
+//! | [`scalar`] | the number that everything is made of, and the vector of three |
+//! | [`ray`], [`place`] | rays and where they start; the coordinates of placed solids |
+//! | [`span`], [`bounds`] | intervals of a ray and set operations on them; boxes |
+//! | [`shape`], [`solid`] | the solids; trees of them by set operations |
+//! | [`color`], [`texture`], [`material`] | what a surface looks like |
+//! | [`light`], [`camera`], [`background`] | what it is lit by, and seen from and against |
+//! | [`error`], [`stats`] | what can be wrong with a scene; what was done |
+//! | [`scene`] | tables of all this, borrowed and checked; nearest hit and shadows |
+//! | [`render`] | the picture, ray by ray, on a bounded stack |
+#![no_std]
+
+pub mod scalar;
+
+mod float;
+mod math;
+
+pub mod ray;
+
+pub mod place;
+
+pub mod span;
+
+pub mod bounds;
+
+pub mod shape;
+
+pub mod solid;
+
+pub mod color;
+
+pub mod texture;
+
+pub mod material;
+
+pub mod light;
+
+pub mod camera;
+
+pub mod background;
+
+pub mod error;
+
+pub mod stats;
+
+pub mod scene;
+
+mod shade;
+
+pub mod render;
+
+pub use background::Background;
+pub use bounds::Bounds;
+pub use camera::{Camera, Projection};
+pub use color::{Rgb, Transfer};
+pub use error::{Item, SceneError};
+pub use glam;
+pub use light::{Attenuation, Light, Spotlight};
+pub use material::{Fresnel, Highlight, Material};
+pub use place::{Affine, Placement};
+pub use ray::Ray;
+pub use render::{Depth, Pixel, Render, Step};
+pub use scalar::{Axis, Scalar, Vector};
+pub use scene::{Fixed, Form, Hit, Limits, Object, Parts, Scene, SceneBuilder, Storage, Store};
+pub use shape::{Cone, Cuboid, Cylinder, Plane, Polygon, Shape, Sphere, Triangle};
+pub use solid::{Leaf, Node};
+pub use span::{Boundary, Operator, Passage, Spans};
+pub use stats::{Event, Stats, Tally};
+pub use texture::{Checker, Mapping, Paint, Texture};

@@ -1,0 +1,115 @@
+//! What a surface does with light.
+
+use crate::color::Rgb;
+use crate::scalar::Scalar;
+use crate::texture::Paint;
+
+/// The shape of a highlight.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Highlight {
+    /// (R·V)ⁿ with the mirrored light R (B. T. Phong, 1975).
+    #[default]
+    Phong,
+    /// (N·H)ⁿ with the half vector H (J. F. Blinn, 1977).
+    Blinn,
+}
+
+/// Whether a dielectric reflects more at a grazing angle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Fresnel {
+    /// The weights stay as they are.
+    #[default]
+    Off,
+    /// C. Schlick's approximation (1994).
+    Schlick,
+    /// Fresnel's equations for unpolarised light.
+    Exact,
+}
+
+/// The surface, and the inside, of a solid.
+///
+/// The light that leaves the surface towards the viewer is
+/// `ambient·ka·color + Σ I·(kd·color·max(0, N·L) + ks·max(0, R·V)^shininess)`
+/// plus `reflect` times the reflected light, plus `transmit` times the refracted light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material<S: Scalar> {
+    /// The colour, or the texture that gives it.
+    pub color: Paint<S>,
+    /// ka: the share of the ambient light.
+    pub ambient: S,
+    /// kd: the share of the diffuse reflection.
+    pub diffuse: S,
+    /// ks: the strength of the highlights.
+    pub specular: S,
+    /// The exponent of the highlights.
+    pub shininess: S,
+    /// The shape of the highlights.
+    pub highlight: Highlight,
+    /// Highlights and mirror images take the surface's colour.
+    pub metallic: bool,
+    /// The weight of the mirrored ray.
+    pub reflect: S,
+    /// The weight of the refracted ray.
+    pub transmit: S,
+    /// The index of refraction inside.
+    pub ior: S,
+    /// Moves weight from transmission and diffuse reflection to the mirrored ray.
+    pub fresnel: Fresnel,
+    /// Absorption inside, per unit of length: light falls off as e^(−absorb·length).
+    pub absorb: Rgb<S>,
+}
+
+impl<S: Scalar> Material<S> {
+    /// A dull surface of one colour: ka 1, kd 0.7, nothing else.
+    pub fn matte(color: Rgb<S>) -> Self {
+        Self {
+            color: Paint::Solid(color),
+            ambient: S::ONE,
+            diffuse: S::from_ratio(7, 10),
+            specular: S::ZERO,
+            shininess: S::from_i32(32),
+            highlight: Highlight::Phong,
+            metallic: false,
+            reflect: S::ZERO,
+            transmit: S::ZERO,
+            ior: S::ONE,
+            fresnel: Fresnel::Off,
+            absorb: Rgb::BLACK,
+        }
+    }
+
+    /// Rays pass through.
+    #[inline]
+    pub fn is_transparent(&self) -> bool {
+        self.transmit > S::ZERO
+    }
+
+    /// The highlight for a cosine: cosine^shininess.
+    #[inline]
+    pub(crate) fn lobe(&self, cosine: S) -> S {
+        let whole = self.shininess.floor_i64();
+        match u16::try_from(whole) {
+            Ok(n) if S::from_i32(i32::from(n)) == self.shininess => cosine.powi(u32::from(n)),
+            _ => cosine.pow(self.shininess),
+        }
+    }
+
+    /// The share of light that a smooth boundary between two media reflects; `cos_in` and
+    /// `cos_out` are the cosines to the normal on the two sides, `ratio` = n₁/n₂.
+    pub(crate) fn reflectance(&self, cos_in: S, cos_out: S, ratio: S) -> S {
+        match self.fresnel {
+            Fresnel::Off => S::ZERO,
+            Fresnel::Schlick => {
+                let zero = ((ratio - S::ONE) / (ratio + S::ONE)).squared();
+                // From the denser side the angle that matters is the one outside.
+                let cosine = if ratio > S::ONE { cos_out } else { cos_in };
+                zero + (S::ONE - zero) * (S::ONE - cosine).powi(5)
+            }
+            Fresnel::Exact => {
+                let s = (ratio * cos_in - cos_out) / (ratio * cos_in + cos_out);
+                let p = (ratio * cos_out - cos_in) / (ratio * cos_out + cos_in);
+                (s.squared() + p.squared()) * S::HALF
+            }
+        }
+    }
+}

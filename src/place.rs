@@ -1,0 +1,253 @@
+//! Placement: where a solid stands, and the way between its own coordinates and the scene's.
+
+use crate::ray::Line;
+use crate::scalar::{Axis, Scalar, Vector};
+
+/// Three rows of a matrix.
+pub type Rows<S> = [<S as Scalar>::Vec3; 3];
+
+/// `rows · v`.
+#[inline]
+pub(crate) fn apply<S: Scalar>(rows: &Rows<S>, v: S::Vec3) -> S::Vec3 {
+    let [a, b, c] = *rows;
+    S::Vec3::new(a.dot(v), b.dot(v), c.dot(v))
+}
+
+/// `rowsᵀ · v`.
+#[inline]
+pub(crate) fn apply_transposed<S: Scalar>(rows: &Rows<S>, v: S::Vec3) -> S::Vec3 {
+    let [a, b, c] = *rows;
+    a * v.x() + b * v.y() + c * v.z()
+}
+
+fn transpose<S: Scalar>(rows: &Rows<S>) -> Rows<S> {
+    Axis::ALL.map(|axis| {
+        let [a, b, c] = rows.map(|row| row.get(axis));
+        S::Vec3::new(a, b, c)
+    })
+}
+
+fn identity<S: Scalar>() -> Rows<S> {
+    Axis::ALL.map(|axis| S::Vec3::ZERO.with(axis, S::ONE))
+}
+
+/// An affine map: `rows · p + offset`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Affine<S: Scalar> {
+    /// The linear part.
+    pub rows: Rows<S>,
+    /// The translation, applied last.
+    pub offset: S::Vec3,
+}
+
+impl<S: Scalar> Affine<S> {
+    /// The map that changes nothing.
+    pub fn identity() -> Self {
+        Self { rows: identity::<S>(), offset: S::Vec3::ZERO }
+    }
+
+    /// A translation.
+    pub fn translate(by: S::Vec3) -> Self {
+        Self { offset: by, ..Self::identity() }
+    }
+
+    /// A scale by a factor along each axis.
+    pub fn scale(by: S::Vec3) -> Self {
+        let mut affine = Self::identity();
+        for (row, factor) in affine.rows.iter_mut().zip(by.to_array()) {
+            *row = *row * factor;
+        }
+        affine
+    }
+
+    /// A right-handed rotation about a coordinate axis, by an angle in degrees. Multiples of
+    /// 90 degrees are exact.
+    pub fn rotate(axis: Axis, degrees: S) -> Self {
+        let (sin, cos) = sin_cos_degrees(degrees);
+        let (u, v) = (axis.next(), axis.next().next());
+        let mut affine = Self::identity();
+        for (row, of) in affine.rows.iter_mut().zip(Axis::ALL) {
+            if of == u {
+                *row = S::Vec3::ZERO.with(u, cos).with(v, -sin);
+            } else if of == v {
+                *row = S::Vec3::ZERO.with(u, sin).with(v, cos);
+            }
+        }
+        affine
+    }
+
+    /// This map, and then another.
+    #[must_use]
+    pub fn then(&self, next: &Self) -> Self {
+        let columns = transpose::<S>(&self.rows);
+        Self {
+            rows: next.rows.map(|row| {
+                let [a, b, c] = columns.map(|column| row.dot(column));
+                S::Vec3::new(a, b, c)
+            }),
+            offset: next.point(self.offset),
+        }
+    }
+
+    /// Where a point goes.
+    pub fn point(&self, p: S::Vec3) -> S::Vec3 {
+        apply::<S>(&self.rows, p) + self.offset
+    }
+
+    /// The determinant of the linear part.
+    pub fn determinant(&self) -> S {
+        let [a, b, c] = self.rows;
+        a.dot(b.cross(c))
+    }
+
+    /// The inverse of the linear part, or `None` where the map flattens space (a determinant
+    /// within rounding of 0).
+    pub fn inverse_rows(&self) -> Option<Rows<S>> {
+        let [a, b, c] = self.rows;
+        let det = self.determinant();
+        let size = a.length() * b.length() * c.length();
+        let least = size * S::EPSILON * S::from_i32(4);
+        if !size.is_finite() || !(det.abs() > least) {
+            return None;
+        }
+        let inverse = S::ONE / det;
+        let columns = [b.cross(c) * inverse, c.cross(a) * inverse, a.cross(b) * inverse];
+        let finite = columns.iter().all(|column| column.is_finite());
+        finite.then(|| transpose::<S>(&columns))
+    }
+
+    /// The factor of a similarity (rotation, reflection and one scale), or `None` where
+    /// lengths change by different factors in different directions.
+    pub fn similarity(&self) -> Option<S> {
+        let [a, b, c] = transpose::<S>(&self.rows);
+        let (aa, bb, cc) = (a.length_squared(), b.length_squared(), c.length_squared());
+        let within = aa * S::EPSILON * S::from_i32(16);
+        let right = |u: S::Vec3, v: S::Vec3| u.dot(v).abs() <= within;
+        let equal = |u: S, v: S| (u - v).abs() <= within;
+        (equal(aa, bb) && equal(aa, cc) && right(a, b) && right(b, c) && right(c, a))
+            .then(|| if bb == aa && cc == aa { aa.sqrt() } else { a.length() })
+    }
+}
+
+/// Sine and cosine of an angle in degrees; exact at multiples of 90.
+pub(crate) fn sin_cos_degrees<S: Scalar>(degrees: S) -> (S, S) {
+    let turn = S::from_i32(360);
+    let reduced = degrees - (degrees / turn).floor() * turn;
+    let quarter = S::from_i32(90);
+    if reduced == S::ZERO {
+        (S::ZERO, S::ONE)
+    } else if reduced == quarter {
+        (S::ONE, S::ZERO)
+    } else if reduced == quarter * S::TWO {
+        (S::ZERO, -S::ONE)
+    } else if reduced == quarter * S::from_i32(3) {
+        (-S::ONE, S::ZERO)
+    } else {
+        (reduced * S::PI / S::from_i32(180)).sin_cos()
+    }
+}
+
+/// The coordinates of a placed leaf: `local = to_local · (world − anchor)`.
+///
+/// Rays are recentred on the anchor before they are transformed, so precision does not
+/// depend on how far away they start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement<S: Scalar> {
+    /// The origin of the local coordinates, in the scene.
+    pub anchor: S::Vec3,
+    /// From directions in the scene to local ones.
+    pub to_local: Rows<S>,
+    /// From local directions to the scene's: the inverse of `to_local`.
+    pub to_world: Rows<S>,
+    /// Lengths are the same on both sides.
+    pub rigid: bool,
+}
+
+impl<S: Scalar> Placement<S> {
+    /// The placement of coordinates whose map to the scene is given; `None` where that map
+    /// is singular.
+    pub fn new(to_world: &Affine<S>) -> Option<Self> {
+        let rigid = to_world
+            .similarity()
+            .is_some_and(|factor| (factor - S::ONE).abs() <= S::EPSILON * S::from_i32(8));
+        let to_local = to_world.inverse_rows()?;
+        Some(Self { anchor: to_world.offset, to_local, to_world: to_world.rows, rigid })
+    }
+
+    /// A point of the scene for a local one.
+    #[inline]
+    pub fn point(&self, local: S::Vec3) -> S::Vec3 {
+        apply::<S>(&self.to_world, local) + self.anchor
+    }
+
+    /// A direction of the scene at right angles to a surface, for a local one; not of unit length.
+    #[inline]
+    pub fn normal(&self, local: S::Vec3) -> S::Vec3 {
+        apply_transposed::<S>(&self.to_local, local)
+    }
+}
+
+/// A ray in the coordinates of one leaf, moved along itself to the leaf's neighbourhood:
+/// the point at `t` is `origin + (t − shift)·dir`.
+#[derive(Clone, Copy, Debug)]
+pub struct Local<S: Scalar> {
+    /// The parameter of `origin` on the ray.
+    pub shift: S,
+    /// A point of the ray near the leaf's centre.
+    pub origin: S::Vec3,
+    /// The direction, in local coordinates.
+    pub dir: S::Vec3,
+    /// `dir · dir`.
+    pub dd: S,
+    /// `1 / (dir · dir)`.
+    pub inv_dd: S,
+}
+
+impl<S: Scalar> Local<S> {
+    /// The ray recentred on a leaf that stands at `centre` without a placement, or whose
+    /// placement is given (then `centre` is its anchor).
+    #[inline]
+    pub fn recentred(line: &Line<S>, place: Option<&Placement<S>>, centre: S::Vec3) -> Self {
+        let Some(place) = place else {
+            let shift = -(line.origin - centre).dot(line.dir) * line.inv_dd;
+            let origin = line.recentred(centre, shift);
+            return Self { shift, origin, dir: line.dir, dd: line.dd, inv_dd: line.inv_dd };
+        };
+        let from = line.origin - place.anchor;
+        let dir = apply::<S>(&place.to_local, line.dir);
+        let (dd, inv_dd, shift) = if place.rigid {
+            (line.dd, line.inv_dd, -from.dot(line.dir) * line.inv_dd)
+        } else {
+            // Nearest to the anchor as the leaf measures it: any shift is exact by definition.
+            let dd = dir.length_squared();
+            let inv_dd = S::ONE / dd;
+            (dd, inv_dd, -apply::<S>(&place.to_local, from).dot(dir) * inv_dd)
+        };
+        let origin = apply::<S>(&place.to_local, line.recentred(place.anchor, shift));
+        Self { shift, origin, dir, dd, inv_dd }
+    }
+
+    /// The ray from a known point of the leaf's surface.
+    #[inline]
+    pub fn from_surface(line: &Line<S>, place: Option<&Placement<S>>, local: S::Vec3) -> Self {
+        let (dir, dd, inv_dd) = match place {
+            None => (line.dir, line.dd, line.inv_dd),
+            Some(place) => {
+                let dir = apply::<S>(&place.to_local, line.dir);
+                if place.rigid {
+                    (dir, line.dd, line.inv_dd)
+                } else {
+                    let dd = dir.length_squared();
+                    (dir, dd, S::ONE / dd)
+                }
+            }
+        };
+        Self { shift: S::ZERO, origin: local, dir, dd, inv_dd }
+    }
+
+    /// The point at parameter `t` of the ray.
+    #[inline]
+    pub fn at(&self, t: S) -> S::Vec3 {
+        self.origin + self.dir * (t - self.shift)
+    }
+}

@@ -1,0 +1,78 @@
+//! Rays, where they start, and what is computed of them once for all solids.
+
+use crate::scalar::{Scalar, Vector};
+
+/// A half-line: `origin + t·dir` for t > 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray<S: Scalar> {
+    /// Where it starts.
+    pub origin: S::Vec3,
+    /// Where it goes; t counts in lengths of this vector.
+    pub dir: S::Vec3,
+}
+
+impl<S: Scalar> Ray<S> {
+    /// The point at `t`.
+    #[inline]
+    pub fn at(&self, t: S) -> S::Vec3 {
+        self.origin + self.dir * t
+    }
+}
+
+/// The surface that a secondary or shadow ray starts on.
+///
+/// The root of this surface at t = 0 is known, so it is divided out instead of being
+/// avoided by an epsilon: no ray meets the surface it starts on again by rounding, and none
+/// loses the far side of a thin solid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start<S: Scalar> {
+    /// The leaf, as an index into the scene's nodes.
+    pub node: u32,
+    /// Which of its faces.
+    pub face: u16,
+    /// The ray goes to the inner side of the leaf.
+    pub inward: bool,
+    /// The origin in the leaf's own coordinates, on the surface.
+    pub local: S::Vec3,
+}
+
+/// A ray with everything that depends on its direction alone.
+#[derive(Clone, Copy, Debug)]
+pub struct Line<S: Scalar> {
+    /// Where it starts.
+    pub origin: S::Vec3,
+    /// Where it goes.
+    pub dir: S::Vec3,
+    /// `dir · dir`.
+    pub dd: S,
+    /// `1 / (dir · dir)`.
+    pub inv_dd: S,
+    /// `1 / dir`, coordinate by coordinate; infinite where a coordinate is 0.
+    pub inv_dir: S::Vec3,
+    /// The surface it starts on.
+    pub start: Option<Start<S>>,
+    aim: S::Aim,
+}
+
+impl<S: Scalar> Line<S> {
+    /// Prepares a ray that starts on the given surface, or in free space.
+    #[inline]
+    pub fn new(ray: Ray<S>, start: Option<Start<S>>) -> Self {
+        let dd = ray.dir.length_squared();
+        Self {
+            origin: ray.origin,
+            dir: ray.dir,
+            dd,
+            inv_dd: S::ONE / dd,
+            inv_dir: ray.dir.map(|d| S::ONE / d),
+            start,
+            aim: S::aim(ray.dir),
+        }
+    }
+
+    /// The point at `k`, seen from `centre`, without cancellation.
+    #[inline]
+    pub fn recentred(&self, centre: S::Vec3, k: S) -> S::Vec3 {
+        S::recentre(self.origin, centre, self.dir, &self.aim, k)
+    }
+}

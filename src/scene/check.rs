@@ -1,0 +1,434 @@
+//! The one place where a scene is checked; after it nothing can fail.
+
+use super::{Limits, Object, Parts};
+use crate::background::Background;
+use crate::bounds::Bounds;
+use crate::color::Rgb;
+use crate::error::{Item, SceneError};
+use crate::light::{Attenuation, Light};
+use crate::material::{Fresnel, Material};
+use crate::place::{Placement, apply};
+use crate::scalar::{Axis, Scalar, Vector};
+use crate::solid::{Leaf, NESTING_MAX, Node};
+use crate::span::Operator;
+use crate::texture::{Paint, Texture};
+
+/// Checks all tables and works out what the scene needs.
+pub(super) fn check<S: Scalar>(parts: &Parts<'_, S>) -> Result<Limits<S>, SceneError> {
+    parts.camera.check().map_err(SceneError::of_camera)?;
+    check_background(&parts.background)?;
+    check_light_amount(Item::Ambient, "color", parts.ambient)?;
+    for (index, placement) in (0..).zip(parts.placements) {
+        check_placement(Item::Placement(index), placement)?;
+    }
+    for (index, texture) in (0..).zip(parts.textures) {
+        check_texture(parts, index, texture)?;
+    }
+    for (index, material) in (0..).zip(parts.materials) {
+        check_material(parts, Item::Material(index), material)?;
+    }
+    for (index, light) in (0..).zip(parts.lights) {
+        check_light(Item::Light(index), light)?;
+    }
+    let (mut boundaries, mut crossings) = (0, 0_u32);
+    for (index, object) in (0..).zip(parts.objects) {
+        let needs = check_object(parts, index, object)?;
+        boundaries = boundaries.max(needs.boundaries);
+        crossings = crossings.saturating_add(needs.crossings);
+    }
+    Ok(reach(parts, boundaries, crossings))
+}
+
+/// What one object needs.
+pub(super) struct Needs<S: Scalar> {
+    pub(super) boundaries: u32,
+    pub(super) crossings: u32,
+    pub(super) bounds: Bounds<S>,
+}
+
+/// An operator whose operands are being counted.
+#[derive(Clone, Copy)]
+struct Open<S: Scalar> {
+    operator: Operator,
+    node: u32,
+    end: u32,
+    operands: u32,
+    bounds: Bounds<S>,
+}
+
+impl<S: Scalar> Open<S> {
+    fn take(&mut self, bounds: &Bounds<S>) {
+        self.bounds = match (self.operator, self.operands) {
+            (Operator::Complement, _) => Bounds::everywhere(),
+            (_, 0) => *bounds,
+            (Operator::Union | Operator::Xor, _) => self.bounds.union(bounds),
+            (Operator::Intersection, _) => self.bounds.intersection(bounds),
+            (Operator::Difference, _) => self.bounds,
+        };
+        self.operands += 1;
+    }
+
+    fn check_operands(&self) -> Result<(), SceneError> {
+        let (at, operands) = (Item::Node(self.node), self.operands);
+        if operands == 0 {
+            Err(SceneError::OperandUnderflow { at, operands, least: 1 })
+        } else if self.operator == Operator::Complement && operands > 1 {
+            Err(SceneError::OperandOverflow { at, most: 1 })
+        } else {
+            Ok(())
+        }
+    }
+}
+
+/// Walks the nodes of one object: they must be exactly one well-formed solid.
+pub(super) fn check_object<S: Scalar>(
+    parts: &Parts<'_, S>,
+    index: u32,
+    object: &Object<S>,
+) -> Result<Needs<S>, SceneError> {
+    let at = Item::Object(index);
+    let len = parts.nodes.len() as u32;
+    let end = object.first.checked_add(object.count).filter(|&end| end <= len);
+    let end = end.ok_or(SceneError::IndexOutOfRange {
+        at,
+        table: "nodes",
+        index: object.first.saturating_add(object.count),
+        len,
+    })?;
+    check_material_index(parts, at, object.material)?;
+
+    let mut open: heapless::Vec<Open<S>, NESTING_MAX> = heapless::Vec::new();
+    let mut finished = None;
+    let (mut crossings, mut operators) = (0_u32, false);
+    for node in object.first..end {
+        if finished.is_some() {
+            return Err(SceneError::StrayNodes { at, node });
+        }
+        let mut bounds = match parts.nodes.get(node as usize) {
+            Some(&Node::Operator { operator, size }) => {
+                operators = true;
+                let limit = open.last().map_or(end, |outer| outer.end);
+                let end = node.checked_add(size).filter(|&end| size > 0 && end <= limit);
+                let end = end.ok_or(SceneError::OperatorSize { at: Item::Node(node), size })?;
+                let bounds = Bounds::nothing();
+                let opened = Open { operator, node, end, operands: 0, bounds };
+                if open.push(opened).is_err() {
+                    let limit = NESTING_MAX as u32;
+                    return Err(SceneError::TooDeep { at: Item::Node(node), limit });
+                }
+                if end > node + 1 {
+                    continue;
+                }
+                // No room for an operand: falls through to the count below.
+                open.pop().map_or(Ok(()), |inner| inner.check_operands())?;
+                continue;
+            }
+            Some(Node::Leaf(leaf)) => {
+                let operator = open.iter().map(|o| o.operator).find(|&o| o != Operator::Union);
+                crossings = crossings.saturating_add(2 * u32::from(leaf.shape.spans_max()));
+                check_leaf(parts, node, leaf, operator)?
+            }
+            None => return Err(SceneError::StrayNodes { at, node }),
+        };
+        // The leaf ends every operator that ends with it.
+        loop {
+            let Some(inner) = open.last_mut() else {
+                finished = Some(bounds);
+                break;
+            };
+            inner.take(&bounds);
+            if inner.end > node + 1 {
+                break;
+            }
+            inner.check_operands()?;
+            bounds = inner.bounds;
+            open.pop();
+        }
+    }
+    let bounds = finished.ok_or(SceneError::StrayNodes { at, node: end })?;
+    if object.bounds.is_some_and(|stated| stated.union(&bounds) != stated) {
+        return Err(SceneError::BoundsTooSmall { at });
+    }
+    // A merge reads two lists and writes a third that is no longer than both.
+    let boundaries = crossings.saturating_mul(if operators { 2 } else { 1 });
+    let limit = u32::from(u16::MAX);
+    if boundaries > limit {
+        return Err(SceneError::SpanOverflow { at, needed: boundaries, limit });
+    }
+    Ok(Needs { boundaries, crossings, bounds })
+}
+
+fn check_leaf<S: Scalar>(
+    parts: &Parts<'_, S>,
+    node: u32,
+    leaf: &Leaf<S>,
+    operator: Option<Operator>,
+) -> Result<Bounds<S>, SceneError> {
+    let at = Item::Node(node);
+    check_material_index(parts, at, leaf.material)?;
+    if let (true, Some(operator)) = (leaf.shape.is_open(), operator) {
+        return Err(SceneError::OpenSurface { at, operator });
+    }
+    let place = match leaf.placement {
+        None => None,
+        Some(index) => {
+            let found = parts.placements.get(usize::from(index));
+            Some(found.ok_or(SceneError::IndexOutOfRange {
+                at,
+                table: "placements",
+                index: u32::from(index),
+                len: parts.placements.len() as u32,
+            })?)
+        }
+    };
+    let flaw = leaf.shape.check(place.is_some(), parts.points);
+    flaw.map_err(|flaw| SceneError::of_flaw(at, flaw))?;
+    Ok(leaf.shape.bounds(place, parts.points))
+}
+
+fn check_material_index<S: Scalar>(
+    parts: &Parts<'_, S>,
+    at: Item,
+    index: u16,
+) -> Result<(), SceneError> {
+    let len = parts.materials.len() as u32;
+    if u32::from(index) < len {
+        return Ok(());
+    }
+    Err(SceneError::IndexOutOfRange { at, table: "materials", index: u32::from(index), len })
+}
+
+fn check_placement<S: Scalar>(at: Item, placement: &Placement<S>) -> Result<(), SceneError> {
+    let rows = placement.to_local.iter().chain(&placement.to_world);
+    if !rows.chain([&placement.anchor]).all(|row| row.is_finite()) {
+        return Err(SceneError::NotFinite { at, field: "placement" });
+    }
+    if placement.anchor.max_abs() > S::COORD_MAX {
+        return Err(SceneError::TooLarge { at, field: "anchor" });
+    }
+    // The two matrices must undo each other, to the rounding of their entries.
+    for axis in Axis::ALL {
+        let unit = S::Vec3::ZERO.with(axis, S::ONE);
+        let there = apply::<S>(&placement.to_world, unit);
+        let scale =
+            there.max_abs() * placement.to_local.iter().fold(S::ZERO, |m, r| m.max(r.max_abs()));
+        let back = apply::<S>(&placement.to_local, there);
+        if !((back - unit).max_abs() <= scale.max(S::ONE) * S::EPSILON_ROOT) {
+            return Err(SceneError::SingularPlacement { at });
+        }
+        let rigid = (there.length() - S::ONE).abs() <= S::EPSILON * S::from_i32(64);
+        if placement.rigid && !rigid {
+            return Err(SceneError::OutOfRange {
+                at,
+                field: "rigid",
+                allowed: "true only without a scale",
+            });
+        }
+    }
+    Ok(())
+}
+
+fn check_paint<S: Scalar>(
+    at: Item,
+    paint: Paint<S>,
+    textures: usize,
+    own: Option<u32>,
+) -> Result<(), SceneError> {
+    match paint {
+        Paint::Solid(color) => check_light_amount(at, "color", color),
+        Paint::Texture(index) => {
+            let (index, len) = (u32::from(index), textures as u32);
+            if index >= len {
+                Err(SceneError::IndexOutOfRange { at, table: "textures", index, len })
+            } else if own.is_some_and(|own| index >= own) {
+                Err(SceneError::TextureOrder { at, names: index })
+            } else {
+                Ok(())
+            }
+        }
+    }
+}
+
+fn check_texture<S: Scalar>(
+    parts: &Parts<'_, S>,
+    index: u32,
+    texture: &Texture<S>,
+) -> Result<(), SceneError> {
+    let at = Item::Texture(index);
+    for paint in texture.paints() {
+        check_paint(at, paint, parts.textures.len(), Some(index))?;
+    }
+    if let Some(placement) = texture.placement() {
+        let (index, len) = (u32::from(placement), parts.placements.len() as u32);
+        if index >= len {
+            return Err(SceneError::IndexOutOfRange { at, table: "placements", index, len });
+        }
+    }
+    let Texture::Checker(checker) = texture;
+    let size = checker.size;
+    if !size.is_finite() {
+        return Err(SceneError::NotFinite { at, field: "size" });
+    }
+    if !(size.x().min(size.y()).min(size.z()) >= S::LENGTH_MIN) {
+        return Err(SceneError::NotPositive { at, field: "size" });
+    }
+    Ok(())
+}
+
+/// Light is finite and not negative.
+fn check_light_amount<S: Scalar>(
+    at: Item,
+    field: &'static str,
+    color: Rgb<S>,
+) -> Result<(), SceneError> {
+    for part in color.to_array() {
+        check_amount(at, field, part)?;
+    }
+    Ok(())
+}
+
+fn check_amount<S: Scalar>(at: Item, field: &'static str, value: S) -> Result<(), SceneError> {
+    if !value.is_finite() {
+        Err(SceneError::NotFinite { at, field })
+    } else if value < S::ZERO {
+        Err(SceneError::OutOfRange { at, field, allowed: "at least 0" })
+    } else if value > S::from_i32(10_000) {
+        Err(SceneError::OutOfRange { at, field, allowed: "at most 10000" })
+    } else {
+        Ok(())
+    }
+}
+
+fn check_background<S: Scalar>(background: &Background<S>) -> Result<(), SceneError> {
+    let at = Item::Background;
+    match *background {
+        Background::Constant(color) => check_light_amount(at, "color", color),
+        Background::Gradient { bottom, top } => {
+            check_light_amount(at, "bottom", bottom)?;
+            check_light_amount(at, "top", top)
+        }
+    }
+}
+
+fn check_material<S: Scalar>(
+    parts: &Parts<'_, S>,
+    at: Item,
+    material: &Material<S>,
+) -> Result<(), SceneError> {
+    check_paint(at, material.color, parts.textures.len(), None)?;
+    for (value, field) in [
+        (material.ambient, "ambient"),
+        (material.diffuse, "diffuse"),
+        (material.specular, "specular"),
+        (material.reflect, "reflect"),
+        (material.transmit, "transmit"),
+    ] {
+        check_amount(at, field, value)?;
+    }
+    if !material.shininess.is_finite() {
+        return Err(SceneError::NotFinite { at, field: "shininess" });
+    }
+    if material.shininess < S::ZERO {
+        return Err(SceneError::OutOfRange { at, field: "shininess", allowed: "at least 0" });
+    }
+    if !material.ior.is_finite() {
+        return Err(SceneError::NotFinite { at, field: "ior" });
+    }
+    if !(material.ior >= S::from_ratio(1, 10) && material.ior <= S::from_i32(10)) {
+        return Err(SceneError::OutOfRange { at, field: "ior", allowed: "between 0.1 and 10" });
+    }
+    check_light_amount(at, "absorb", material.absorb)
+}
+
+fn check_attenuation<S: Scalar>(at: Item, attenuation: &Attenuation<S>) -> Result<(), SceneError> {
+    check_amount(at, "attenuation", attenuation.constant)?;
+    check_amount(at, "attenuation", attenuation.linear)?;
+    check_amount(at, "attenuation", attenuation.quadratic)?;
+    if attenuation.constant < S::from_ratio(1, 10_000) {
+        let allowed = "at least 0.0001 in its constant part";
+        return Err(SceneError::OutOfRange { at, field: "attenuation", allowed });
+    }
+    Ok(())
+}
+
+fn check_unit<S: Scalar>(at: Item, field: &'static str, v: S::Vec3) -> Result<(), SceneError> {
+    if !v.is_finite() {
+        Err(SceneError::NotFinite { at, field })
+    } else if !((v.length() - S::ONE).abs() <= S::EPSILON * S::from_i32(64)) {
+        Err(SceneError::OutOfRange { at, field, allowed: "of unit length" })
+    } else {
+        Ok(())
+    }
+}
+
+fn check_light<S: Scalar>(at: Item, light: &Light<S>) -> Result<(), SceneError> {
+    match light {
+        Light::Directional { toward, color } => {
+            check_light_amount(at, "color", *color)?;
+            check_unit::<S>(at, "toward", *toward)
+        }
+        Light::Point { at: position, color, attenuation }
+        | Light::Spot { at: position, color, attenuation, .. } => {
+            if !position.is_finite() {
+                return Err(SceneError::NotFinite { at, field: "at" });
+            }
+            if position.max_abs() > S::COORD_MAX {
+                return Err(SceneError::TooLarge { at, field: "at" });
+            }
+            check_light_amount(at, "color", *color)?;
+            check_attenuation(at, attenuation)?;
+            let Light::Spot { cone, .. } = light else {
+                return Ok(());
+            };
+            check_unit::<S>(at, "toward", cone.axis)?;
+            let in_order = cone.cos_inner <= S::ONE
+                && cone.cos_outer >= -S::ONE
+                && cone.cos_outer < cone.cos_inner;
+            if in_order {
+                Ok(())
+            } else {
+                let allowed = "an outer angle greater than the inner one, up to 180 degrees";
+                Err(SceneError::OutOfRange { at, field: "cone", allowed })
+            }
+        }
+    }
+}
+
+/// The greatest amounts of light, from the tables alone.
+fn reach<S: Scalar>(parts: &Parts<'_, S>, boundaries: u32, crossings: u32) -> Limits<S> {
+    let brightest_paint = |paint: Paint<S>| match paint {
+        Paint::Solid(color) => color.max_part(),
+        Paint::Texture(last) => {
+            // A texture reaches no texture after itself.
+            let reached = parts.textures.iter().take(usize::from(last) + 1);
+            reached.flat_map(Texture::paints).fold(S::ZERO, |most, paint| match paint {
+                Paint::Solid(color) => most.max(color.max_part()),
+                Paint::Texture(_) => most,
+            })
+        }
+    };
+    let lights = parts.lights.iter().fold(S::ZERO, |sum, light| sum + light.brightest().max_part());
+    let background = parts.background.brightest();
+    let (mut local, mut growth) = (S::ZERO, S::ZERO);
+    let mut transparent = false;
+    for material in parts.materials {
+        let color = brightest_paint(material.color);
+        let tint = if material.metallic { color } else { S::ONE };
+        let lit = material.diffuse * color + material.specular * tint;
+        local = local.max(parts.ambient.max_part() * material.ambient * color + lights * lit);
+        let moved = if material.fresnel == Fresnel::Off { S::ZERO } else { material.diffuse };
+        let mirrored = material.reflect + material.transmit + moved;
+        growth = growth.max(mirrored * tint.max(S::ONE));
+        transparent |= material.is_transparent();
+    }
+    // Sums are rounded; a little more is certainly enough.
+    let margin = S::ONE + S::EPSILON * S::from_i32(1024);
+    Limits {
+        boundaries,
+        crossings,
+        transparent,
+        brightest: local.max(background) * margin,
+        background,
+        growth: growth * margin,
+    }
+}

@@ -1,0 +1,333 @@
+//! What a ray meets first, and what stands between a point and a light.
+
+use super::{Object, Scene};
+use crate::color::Rgb;
+use crate::material::Material;
+use crate::ray::{Line, Ray, Start};
+use crate::scalar::{Scalar, Vector};
+use crate::solid::{Leaf, Node};
+use crate::span::{Boundary, End, Passage};
+use crate::stats::{Event, Tally};
+
+/// The nearest boundary on a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit<S> {
+    /// The object, as an index into the scene's.
+    pub object: u32,
+    /// The boundary of that object.
+    pub boundary: Boundary<S>,
+}
+
+/// The transparent objects that a point lies in: where they overlap, the one listed last rules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Media {
+    /// The object that rules, and the one that would without it.
+    ruling: [Option<u32>; 2],
+}
+
+impl Media {
+    const AIR: Self = Self { ruling: [None; 2] };
+
+    /// Takes note of an object around the point; objects come in ascending order.
+    fn add(&mut self, object: u32) {
+        self.ruling = [Some(object), self.ruling[0]];
+    }
+
+    /// The object that fills the space here.
+    pub(crate) fn here(&self) -> Option<u32> {
+        self.ruling[0]
+    }
+
+    /// The object that fills the space behind a boundary of `object`.
+    pub(crate) fn behind(&self, object: u32, passage: Passage) -> Option<u32> {
+        match passage {
+            Passage::Touch => self.ruling[0],
+            Passage::Enter => self.ruling[0].max(Some(object)),
+            Passage::Leave if self.ruling[0] == Some(object) => self.ruling[1],
+            Passage::Leave => self.ruling[0],
+        }
+    }
+}
+
+/// What a search along a ray found.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Found<S> {
+    pub(crate) hit: Option<Hit<S>>,
+    pub(crate) media: Media,
+}
+
+/// Which objects a search looks at.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Among {
+    All,
+    Transparent,
+}
+
+impl<'a, S: Scalar> Scene<'a, S> {
+    /// The nearest boundary along a ray from free space. The buffer needs the room that
+    /// [`limits`](Self::limits) tells.
+    pub fn nearest(&self, ray: Ray<S>, buffer: &mut [Boundary<S>]) -> Option<Hit<S>> {
+        self.search(&Line::new(ray, None), S::FAR, buffer, &mut ()).hit
+    }
+
+    /// The nearest boundary in 0 < t < `t_max`, and the media at the start.
+    #[inline]
+    pub(crate) fn search(
+        &self,
+        line: &Line<S>,
+        t_max: S,
+        buffer: &mut [Boundary<S>],
+        tally: &mut impl Tally,
+    ) -> Found<S> {
+        self.search_among(Among::All, line, t_max, buffer, tally)
+    }
+
+    fn search_among(
+        &self,
+        among: Among,
+        line: &Line<S>,
+        mut t_max: S,
+        buffer: &mut [Boundary<S>],
+        tally: &mut impl Tally,
+    ) -> Found<S> {
+        let mut found = Found { hit: None, media: Media::AIR };
+        for (index, object) in (0..).zip(self.parts.objects) {
+            if object.bounds.is_some_and(|bounds| !bounds.meets(line, t_max)) {
+                tally.count(Event::BoundsSkip);
+                continue;
+            }
+            if among == Among::Transparent && self.is_opaque_leaf(object) {
+                continue;
+            }
+            let fills = self.fills(object);
+            let (inside, first) = self.first_boundary(object, line, t_max, buffer, tally);
+            if inside && fills {
+                found.media.add(index);
+            }
+            if let Some(boundary) = first {
+                t_max = boundary.t;
+                found.hit = Some(Hit { object: index, boundary });
+            }
+        }
+        found
+    }
+
+    /// Light goes through what fills the object.
+    #[inline]
+    fn fills(&self, object: &Object<S>) -> bool {
+        self.limits.transparent
+            && self.material(object.material).is_some_and(Material::is_transparent)
+    }
+
+    /// The object is a single leaf that lets no light through.
+    fn is_opaque_leaf(&self, object: &Object<S>) -> bool {
+        self.geometry()
+            .leaf(object.first)
+            .and_then(|leaf| self.material(leaf.material))
+            .is_some_and(|material| !material.is_transparent())
+    }
+
+    /// Whether the ray starts inside an object, and its first boundary in 0 < t < `t_max`.
+    #[inline]
+    fn first_boundary(
+        &self,
+        object: &Object<S>,
+        line: &Line<S>,
+        t_max: S,
+        buffer: &mut [Boundary<S>],
+        tally: &mut impl Tally,
+    ) -> (bool, Option<Boundary<S>>) {
+        match self.parts.nodes.get(object.first as usize) {
+            Some(Node::Leaf(leaf)) => self.first_of_leaf(object.first, leaf, line, t_max, tally),
+            _ => {
+                let leaf = || tally.count(Event::LeafTest);
+                let geometry = self.geometry();
+                let spans = geometry.evaluate(object.first, object.count, line, buffer, leaf);
+                let first = spans.boundaries.first().filter(|b| b.t < t_max);
+                (spans.inside, first.copied())
+            }
+        }
+    }
+
+    /// The same for an object that is a single leaf, without a list.
+    #[inline]
+    fn first_of_leaf(
+        &self,
+        node: u32,
+        leaf: &Leaf<S>,
+        line: &Line<S>,
+        t_max: S,
+        tally: &mut impl Tally,
+    ) -> (bool, Option<Boundary<S>>) {
+        tally.count(Event::LeafTest);
+        let sight = self.geometry().sight(node, leaf, line);
+        let open = leaf.shape.is_open();
+        let (mut inside, mut first) = (false, None);
+        leaf.shape.spans(&sight, |span| {
+            let mut offer = |end: End<S>, passage: Passage| {
+                if end.t > S::ZERO && end.t < t_max && first.is_none() {
+                    let End { t, face } = end;
+                    first = Some(Boundary { t, node, face, passage, inverted: false });
+                }
+            };
+            if open {
+                offer(span.enter, Passage::Touch);
+            } else {
+                inside |= span.enter.t <= S::ZERO && S::ZERO < span.exit.t;
+                offer(span.enter, Passage::Enter);
+                offer(span.exit, Passage::Leave);
+            }
+        });
+        (inside, first)
+    }
+
+    /// The share of a light that arrives along a ray from a surface: nothing behind an opaque
+    /// surface; each transparent one lets its `transmit` through, and what lies between
+    /// absorbs by its length.
+    pub(crate) fn transmittance(
+        &self,
+        line: &Line<S>,
+        distance: S,
+        buffer: &mut [Boundary<S>],
+        tally: &mut impl Tally,
+    ) -> Rgb<S> {
+        let mut filtered = false;
+        for object in self.parts.objects {
+            if object.bounds.is_some_and(|bounds| !bounds.meets(line, distance)) {
+                tally.count(Event::BoundsSkip);
+                continue;
+            }
+            match self.obstacle(object, line, distance, buffer, tally) {
+                Obstacle::None => {}
+                Obstacle::Filter => filtered = true,
+                Obstacle::Opaque => return Rgb::BLACK,
+            }
+        }
+        if filtered { self.filter(line, distance, buffer, tally) } else { Rgb::WHITE }
+    }
+
+    /// What one object does to the light along a part of a ray.
+    fn obstacle(
+        &self,
+        object: &Object<S>,
+        line: &Line<S>,
+        distance: S,
+        buffer: &mut [Boundary<S>],
+        tally: &mut impl Tally,
+    ) -> Obstacle {
+        let of = |node: u32| {
+            let leaf = self.geometry().leaf(node);
+            let clear = leaf.and_then(|leaf| self.material(leaf.material));
+            if clear.is_some_and(Material::is_transparent) {
+                Obstacle::Filter
+            } else {
+                Obstacle::Opaque
+            }
+        };
+        if let Some(Node::Leaf(leaf)) = self.parts.nodes.get(object.first as usize) {
+            let (inside, first) = self.first_of_leaf(object.first, leaf, line, distance, tally);
+            let around =
+                if inside && self.fills(object) { Obstacle::Filter } else { Obstacle::None };
+            return first.map_or(around, |boundary| of(boundary.node));
+        }
+        let leaf = || tally.count(Event::LeafTest);
+        let spans = self.geometry().evaluate(object.first, object.count, line, buffer, leaf);
+        let around = spans.inside && self.fills(object);
+        let mut obstacle = if around { Obstacle::Filter } else { Obstacle::None };
+        for boundary in spans.boundaries.iter().filter(|b| b.t < distance) {
+            obstacle = of(boundary.node);
+            if obstacle == Obstacle::Opaque {
+                break;
+            }
+        }
+        obstacle
+    }
+
+    /// Goes through the transparent surfaces towards a light, one after another.
+    fn filter(
+        &self,
+        line: &Line<S>,
+        distance: S,
+        buffer: &mut [Boundary<S>],
+        tally: &mut impl Tally,
+    ) -> Rgb<S> {
+        let (mut line, mut distance, mut share) = (*line, distance, Rgb::WHITE);
+        // Every crossing ends one of the spans that there are at most.
+        for _ in 0..=self.limits.crossings {
+            let found = self.search_among(Among::Transparent, &line, distance, buffer, tally);
+            let length = found.hit.map_or(distance, |hit| hit.boundary.t);
+            share = share * self.absorption(found.media.here(), length);
+            let Some(Hit { object, boundary }) = found.hit else {
+                break;
+            };
+            let Some(leaf) = self.geometry().leaf(boundary.node) else {
+                break;
+            };
+            let behind = found.media.behind(object, boundary.passage);
+            if boundary.passage == Passage::Touch || behind != found.media.here() {
+                let transmit = self.material(leaf.material).map_or(S::ZERO, |m| m.transmit);
+                share = share * transmit;
+            }
+            let end = End { t: boundary.t, face: boundary.face };
+            let contact = self.geometry().contact(&line, leaf, end);
+            let start = Start {
+                node: boundary.node,
+                face: boundary.face,
+                inward: (boundary.passage == Passage::Enter) != boundary.inverted,
+                local: contact.local,
+            };
+            line = Line::new(Ray { origin: contact.position, dir: line.dir }, Some(start));
+            if distance < S::FAR {
+                distance -= boundary.t;
+            }
+        }
+        share
+    }
+
+    /// The share of light left after a length of what fills an object.
+    pub(crate) fn absorption(&self, medium: Option<u32>, length: S) -> Rgb<S> {
+        let object = medium.and_then(|index| self.parts.objects.get(index as usize));
+        let Some(material) = object.and_then(|object| self.material(object.material)) else {
+            return Rgb::WHITE;
+        };
+        if material.absorb.is_black() {
+            return Rgb::WHITE;
+        }
+        material.absorb.map(|part| {
+            // Nothing to multiply with an infinite length.
+            if part == S::ZERO { S::ONE } else { (-(part * length)).exp() }
+        })
+    }
+
+    /// The index of refraction of what fills an object; 1 for air.
+    pub(crate) fn ior(&self, medium: Option<u32>) -> S {
+        let object = medium.and_then(|index| self.parts.objects.get(index as usize));
+        let material = object.and_then(|object| self.material(object.material));
+        material.map_or(S::ONE, |material| material.ior)
+    }
+
+    /// The unit normal that light sees at a point of a leaf, given the one of its geometry.
+    pub(crate) fn shading_normal(
+        &self,
+        leaf: &Leaf<S>,
+        position: S::Vec3,
+        normal: S::Vec3,
+    ) -> S::Vec3 {
+        let crate::shape::Shape::Triangle(triangle) = leaf.shape else {
+            return normal;
+        };
+        let Some(shading) = triangle.shading_normal::<S>(position, self.parts.points) else {
+            return normal;
+        };
+        let unit = shading.normalize();
+        if unit.dot(normal) < S::ZERO { -unit } else { unit }
+    }
+}
+
+/// What stands in the way of light.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Obstacle {
+    None,
+    Filter,
+    Opaque,
+}

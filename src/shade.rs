@@ -1,0 +1,214 @@
+//! The light that leaves a surface: what is lit directly, and which rays carry the rest.
+
+use crate::color::Rgb;
+use crate::material::{Highlight, Material};
+use crate::ray::{Line, Ray, Start};
+use crate::scalar::{Scalar, Vector};
+use crate::scene::{Hit, Scene};
+use crate::solid::Contact;
+use crate::span::{Boundary, End, Passage};
+use crate::stats::{Event, Tally};
+use crate::texture::Spot;
+
+/// A surface where a ray met it.
+pub(crate) struct Surface<'a, S: Scalar> {
+    material: &'a Material<S>,
+    /// The colour here, textures applied.
+    color: Rgb<S>,
+    contact: Contact<S>,
+    node: u32,
+    face: u16,
+    passage: Passage,
+    object: u32,
+    /// The viewer is on the inner side of the leaf.
+    from_within: bool,
+    /// The unit normal of the geometry, to the viewer's side.
+    normal: S::Vec3,
+    /// The unit normal that light sees, to the viewer's side.
+    shading: S::Vec3,
+}
+
+/// A ray to follow, and its share of the light.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Branch<S: Scalar> {
+    pub(crate) ray: Ray<S>,
+    pub(crate) start: Start<S>,
+    pub(crate) weight: Rgb<S>,
+}
+
+/// The rays that carry light to a surface.
+pub(crate) struct Branches<S: Scalar> {
+    pub(crate) reflected: Option<Branch<S>>,
+    pub(crate) refracted: Option<Branch<S>>,
+    /// The share of the diffuse light that is left beside them.
+    pub(crate) diffuse: S,
+}
+
+impl<'a, S: Scalar> Surface<'a, S> {
+    /// The surface at a hit; `None` only for a hit that is not of this scene.
+    pub(crate) fn new(scene: &Scene<'a, S>, line: &Line<S>, hit: &Hit<S>) -> Option<Self> {
+        let Boundary { t, node, face, passage, .. } = hit.boundary;
+        let geometry = scene.geometry();
+        let leaf = geometry.leaf(node)?;
+        let material = scene.material(leaf.material)?;
+        let contact = geometry.contact(line, leaf, End { t, face });
+        let from_within = contact.normal.dot(line.dir) > S::ZERO;
+        let normal = if from_within { -contact.normal } else { contact.normal };
+        let textures = scene.textures();
+        let uv = if textures.wants_uv(material.color) {
+            leaf.shape.uv(contact.local, face, scene.parts().points)
+        } else {
+            [S::ZERO; 2]
+        };
+        let color = textures.color(material.color, &Spot { position: contact.position, uv });
+        let shading = scene.shading_normal(leaf, contact.position, normal);
+        let object = hit.object;
+        Some(Self {
+            material,
+            color,
+            contact,
+            node,
+            face,
+            passage,
+            object,
+            from_within,
+            normal,
+            shading,
+        })
+    }
+
+    fn start(&self, other_side: bool) -> Start<S> {
+        Start {
+            node: self.node,
+            face: self.face,
+            inward: self.from_within != other_side,
+            local: self.contact.local,
+        }
+    }
+
+    fn branch(&self, dir: S::Vec3, other_side: bool, weight: Rgb<S>) -> Branch<S> {
+        let ray = Ray { origin: self.contact.position, dir };
+        Branch { ray, start: self.start(other_side), weight }
+    }
+
+    /// The light of the lamps and the ambient light towards the viewer against `view`, with
+    /// the share of the diffuse light that Fresnel's law leaves.
+    pub(crate) fn local_light(
+        &self,
+        scene: &Scene<'a, S>,
+        view: S::Vec3,
+        diffuse_share: S,
+        buffer: &mut [Boundary<S>],
+        tally: &mut impl Tally,
+    ) -> Rgb<S> {
+        let material = self.material;
+        let parts = scene.parts();
+        let mut light = parts.ambient * self.color * material.ambient;
+        let diffuse = material.diffuse * diffuse_share;
+        if diffuse == S::ZERO && material.specular == S::ZERO {
+            return light;
+        }
+        let gloss = if material.metallic { self.color } else { Rgb::WHITE } * material.specular;
+        for lamp in parts.lights {
+            let Some(seen) = lamp.seen_from(self.contact.position) else {
+                tally.count(Event::ShadowSkip);
+                continue;
+            };
+            let facing = self.shading.dot(seen.toward);
+            if !(facing > S::ZERO && self.normal.dot(seen.toward) > S::ZERO) {
+                tally.count(Event::ShadowSkip);
+                continue;
+            }
+            let mut share = self.color * (diffuse * facing);
+            if material.specular > S::ZERO {
+                let cosine = self.highlight_cosine(seen.toward, view, facing);
+                if cosine > S::ZERO {
+                    share += gloss * material.lobe(cosine);
+                }
+            }
+            let arriving = seen.color * share;
+            if arriving.is_black() {
+                tally.count(Event::ShadowSkip);
+                continue;
+            }
+            tally.count(Event::ShadowRay);
+            let ray = Ray { origin: self.contact.position, dir: seen.toward };
+            let line = Line::new(ray, Some(self.start(false)));
+            light += arriving * scene.transmittance(&line, seen.distance, buffer, tally);
+        }
+        light
+    }
+
+    /// R·V of Phong's model, or N·H of Blinn's.
+    #[inline]
+    fn highlight_cosine(&self, toward: S::Vec3, view: S::Vec3, facing: S) -> S {
+        let cosine = match self.material.highlight {
+            Highlight::Phong => (toward - self.shading * (facing * S::TWO)).dot(view),
+            Highlight::Blinn => self.shading.dot((toward - view).normalize()),
+        };
+        cosine.min(S::ONE)
+    }
+
+    /// The light only passes: what rules the space is the same on both sides.
+    pub(crate) fn is_passed_by(&self, here: Option<u32>, behind: Option<u32>) -> bool {
+        self.passage != Passage::Touch && self.material.is_transparent() && here == behind
+    }
+
+    /// The ray that goes on as if the surface were not there.
+    pub(crate) fn passed(&self, dir: S::Vec3, weight: Rgb<S>) -> Branch<S> {
+        self.branch(dir, true, weight)
+    }
+
+    /// Which side of which object the ray goes through.
+    pub(crate) fn crossing(&self) -> (u32, Passage) {
+        (self.object, self.passage)
+    }
+
+    /// The mirrored and the refracted ray for a ray of direction `view` and a weight; `ratio`
+    /// is the index of refraction on this side over that on the other.
+    ///
+    /// Snell's law decides the direction; beyond the critical angle all that would pass is mirrored.
+    pub(crate) fn branches(&self, view: S::Vec3, weight: Rgb<S>, ratio: S) -> Branches<S> {
+        let material = self.material;
+        let (mut reflect, mut transmit) = (material.reflect, material.transmit);
+        let mut diffuse = S::ONE;
+        let cos_in = (-self.shading.dot(view)).clamp(S::ZERO, S::ONE);
+        let mut through = view;
+        if self.passage != Passage::Touch
+            && (transmit > S::ZERO || material.fresnel != crate::material::Fresnel::Off)
+        {
+            let square = S::ONE - ratio.squared() * (S::ONE - cos_in.squared());
+            if square > S::ZERO {
+                let cos_out = square.sqrt();
+                let moved = material.reflectance(cos_in, cos_out, ratio);
+                reflect += moved * (transmit + material.diffuse);
+                transmit *= S::ONE - moved;
+                diffuse = S::ONE - moved;
+                if ratio != S::ONE {
+                    through = view * ratio + self.shading * (ratio * cos_in - cos_out);
+                }
+            } else {
+                reflect += transmit;
+                transmit = S::ZERO;
+            }
+        }
+        let tint = if material.metallic { self.color } else { Rgb::WHITE };
+        let reflected = (reflect > S::ZERO).then(|| {
+            let dir = self.mirrored(view, cos_in).normalize();
+            self.branch(dir, false, weight * tint * reflect)
+        });
+        let refracted =
+            (transmit > S::ZERO).then(|| self.branch(through.normalize(), true, weight * transmit));
+        Branches { reflected, refracted, diffuse }
+    }
+
+    /// The mirrored direction; never to the far side of the geometry, whatever the shading normal says.
+    fn mirrored(&self, view: S::Vec3, cos_in: S) -> S::Vec3 {
+        let dir = view + self.shading * (cos_in * S::TWO);
+        if dir.dot(self.normal) >= S::ZERO {
+            dir
+        } else {
+            view - self.normal * (view.dot(self.normal) * S::TWO)
+        }
+    }
+}

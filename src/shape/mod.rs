@@ -1,0 +1,219 @@
+//! The solids: one file per family, each with all that it knows.
+//!
+//! | shape | method |
+//! | --- | --- |
+//! | [`Sphere`], ellipsoid | recentred without cancellation, then solved in place |
+//! | [`Plane`] | one division, refined where the normal is oblique |
+//! | [`Cuboid`] | slabs with the reciprocals of the ray, parallel rays apart |
+//! | [`Cylinder`] | recentred, Lagrange's form of the discriminant, clipped by its caps |
+//! | [`Cone`] | the same about an apex; frusta and both directions of the axis |
+//! | [`Triangle`] | watertight edge functions in the space of the ray |
+//! | [`Polygon`] | the same edge functions, counted along a half-line; concave allowed |
+
+mod cone;
+mod cuboid;
+mod cylinder;
+mod plane;
+mod polygon;
+mod sphere;
+mod triangle;
+
+pub use cone::Cone;
+pub use cuboid::Cuboid;
+pub use cylinder::Cylinder;
+pub use plane::Plane;
+pub use polygon::Polygon;
+pub use sphere::Sphere;
+pub use triangle::Triangle;
+
+use crate::bounds::Bounds;
+use crate::place::Placement;
+use crate::ray::{Line, Start};
+use crate::scalar::{Scalar, Vector};
+use crate::span::Span;
+
+/// A ray as one leaf sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Sight<'a, S: Scalar> {
+    /// The ray.
+    pub line: &'a Line<S>,
+    /// The leaf's own coordinates, if they are not the scene's.
+    pub place: Option<&'a Placement<S>>,
+    /// The ray starts on this leaf.
+    pub start: Option<&'a Start<S>>,
+    /// The vertices of the scene.
+    pub points: &'a [S::Vec3],
+}
+
+/// What is wrong with a shape's parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flaw {
+    /// A parameter is infinite or not a number.
+    NotFinite(&'static str),
+    /// A parameter must be greater than 0, and large enough to square.
+    NotPositive(&'static str),
+    /// A parameter is beyond the legal range.
+    TooLarge(&'static str),
+    /// A direction or an extent has no length.
+    Empty(&'static str),
+    /// The upper bound lies below the lower one.
+    Inverted(&'static str),
+    /// An index lies beyond the end of a table.
+    Index(&'static str),
+    /// The vertices do not lie in one plane.
+    NotPlanar(&'static str),
+    /// A placed shape must have its centre at the local origin.
+    OffCentre(&'static str),
+    /// The shape is given in the scene's coordinates and takes no placement.
+    Placed(&'static str),
+}
+
+/// What every solid can tell. Local coordinates are the scene's, moved to [`centre`](Self::centre),
+/// or those of the leaf's placement.
+pub trait Primitive<S: Scalar> {
+    /// A surface without an inside.
+    const OPEN: bool;
+    /// The greatest number of spans along any ray.
+    const SPANS_MAX: u16;
+
+    /// Where the local coordinates of an unplaced shape have their origin.
+    fn centre(&self) -> S::Vec3;
+    /// Whether every parameter is legal.
+    ///
+    /// # Errors
+    /// The first parameter that is not.
+    fn check(&self, placed: bool, points: &[S::Vec3]) -> Result<(), Flaw>;
+    /// A box around the shape.
+    fn bounds(&self, place: Option<&Placement<S>>, points: &[S::Vec3]) -> Bounds<S>;
+    /// Gives each span of the ray inside the shape, in ascending order, behind the origin too.
+    fn spans(&self, sight: &Sight<'_, S>, emit: impl FnMut(Span<S>));
+    /// The point of a face nearest to a local point close to it.
+    fn snap(&self, local: S::Vec3, face: u16) -> S::Vec3;
+    /// The outward normal at a local point of a face, not of unit length; never zero.
+    fn normal(&self, local: S::Vec3, face: u16, points: &[S::Vec3]) -> S::Vec3;
+    /// The texture coordinates of a local point of a face.
+    fn uv(&self, local: S::Vec3, face: u16, points: &[S::Vec3]) -> [S; 2];
+}
+
+/// Any of the solids.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape<S: Scalar> {
+    /// A ball; an ellipsoid when placed with unequal scales.
+    Sphere(Sphere<S>),
+    /// A half-space.
+    Plane(Plane<S>),
+    /// A box.
+    Box(Cuboid<S>),
+    /// A cylinder with its caps.
+    Cylinder(Cylinder<S>),
+    /// A cone or frustum with its caps.
+    Cone(Cone<S>),
+    /// A triangle, an open surface.
+    Triangle(Triangle),
+    /// A plane polygon, an open surface.
+    Polygon(Polygon<S>),
+}
+
+macro_rules! each {
+    ($shape:expr, $inner:ident => $body:expr) => {
+        match $shape {
+            Shape::Sphere($inner) => $body,
+            Shape::Plane($inner) => $body,
+            Shape::Box($inner) => $body,
+            Shape::Cylinder($inner) => $body,
+            Shape::Cone($inner) => $body,
+            Shape::Triangle($inner) => $body,
+            Shape::Polygon($inner) => $body,
+        }
+    };
+}
+
+impl<S: Scalar> Shape<S> {
+    /// A surface without an inside.
+    pub const fn is_open(&self) -> bool {
+        matches!(self, Self::Triangle(_) | Self::Polygon(_))
+    }
+
+    /// The greatest number of spans along any ray.
+    pub const fn spans_max(&self) -> u16 {
+        1
+    }
+
+    /// Where the local coordinates of an unplaced shape have their origin.
+    #[inline]
+    pub fn centre(&self) -> S::Vec3 {
+        each!(self, shape => Primitive::<S>::centre(shape))
+    }
+
+    /// Whether every parameter is legal.
+    ///
+    /// # Errors
+    /// The first parameter that is not.
+    pub fn check(&self, placed: bool, points: &[S::Vec3]) -> Result<(), Flaw> {
+        each!(self, shape => Primitive::<S>::check(shape, placed, points))
+    }
+
+    /// A box around the shape, infinite for a half-space.
+    pub fn bounds(&self, place: Option<&Placement<S>>, points: &[S::Vec3]) -> Bounds<S> {
+        each!(self, shape => Primitive::<S>::bounds(shape, place, points))
+    }
+
+    /// Gives each span of the ray inside the shape, in ascending order, behind the origin too.
+    #[inline]
+    pub fn spans(&self, sight: &Sight<'_, S>, emit: impl FnMut(Span<S>)) {
+        each!(self, shape => Primitive::<S>::spans(shape, sight, emit));
+    }
+
+    /// The point of a face nearest to a local point close to it.
+    #[inline]
+    pub fn snap(&self, local: S::Vec3, face: u16) -> S::Vec3 {
+        each!(self, shape => Primitive::<S>::snap(shape, local, face))
+    }
+
+    /// The outward normal at a local point of a face, not of unit length.
+    #[inline]
+    pub fn normal(&self, local: S::Vec3, face: u16, points: &[S::Vec3]) -> S::Vec3 {
+        each!(self, shape => Primitive::<S>::normal(shape, local, face, points))
+    }
+
+    /// The texture coordinates of a local point of a face.
+    pub fn uv(&self, local: S::Vec3, face: u16, points: &[S::Vec3]) -> [S; 2] {
+        each!(self, shape => Primitive::<S>::uv(shape, local, face, points))
+    }
+}
+
+fn check_point<S: Scalar>(p: S::Vec3, field: &'static str) -> Result<(), Flaw> {
+    if !p.is_finite() {
+        Err(Flaw::NotFinite(field))
+    } else if p.max_abs() > S::COORD_MAX {
+        Err(Flaw::TooLarge(field))
+    } else {
+        Ok(())
+    }
+}
+
+fn check_length<S: Scalar>(length: S, field: &'static str) -> Result<(), Flaw> {
+    if !length.is_finite() {
+        Err(Flaw::NotFinite(field))
+    } else if length < S::LENGTH_MIN {
+        Err(Flaw::NotPositive(field))
+    } else if length > S::COORD_MAX {
+        Err(Flaw::TooLarge(field))
+    } else {
+        Ok(())
+    }
+}
+
+fn check_centre<S: Scalar>(centre: S::Vec3, placed: bool) -> Result<(), Flaw> {
+    check_point::<S>(centre, "center")?;
+    if placed && centre != S::Vec3::ZERO { Err(Flaw::OffCentre("center")) } else { Ok(()) }
+}
+
+fn unplaced(placed: bool, field: &'static str) -> Result<(), Flaw> {
+    if placed { Err(Flaw::Placed(field)) } else { Ok(()) }
+}
+
+/// The angle of (x, z) around the y axis as a fraction of a turn, in 0..=1.
+fn turn<S: Scalar>(x: S, z: S) -> S {
+    z.atan2(x) / (S::PI * S::TWO) + S::HALF
+}

@@ -1,0 +1,116 @@
+//! The half-space below a plane.
+
+use super::{Flaw, Primitive, Sight, check_point, unplaced};
+use crate::bounds::Bounds;
+use crate::place::Placement;
+use crate::scalar::{Axis, Scalar, Vector};
+use crate::span::Span;
+
+/// The half-space `normal · p ≤ offset`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane<S: Scalar> {
+    /// The outward normal, of any length but 0.
+    pub normal: S::Vec3,
+    /// `normal · p` for a point of the plane.
+    pub offset: S,
+}
+
+impl<S: Scalar> Plane<S> {
+    /// The axis that the normal is parallel to, if any.
+    #[inline]
+    fn axis(&self) -> Option<Axis> {
+        let [x, y, z] = self.normal.to_array().map(|v| v == S::ZERO);
+        match (x, y, z) {
+            (false, true, true) => Some(Axis::X),
+            (true, false, true) => Some(Axis::Y),
+            (true, true, false) => Some(Axis::Z),
+            _ => None,
+        }
+    }
+}
+
+impl<S: Scalar> Primitive<S> for Plane<S> {
+    const OPEN: bool = false;
+    const SPANS_MAX: u16 = 1;
+
+    fn centre(&self) -> S::Vec3 {
+        S::Vec3::ZERO
+    }
+
+    fn check(&self, placed: bool, _: &[S::Vec3]) -> Result<(), Flaw> {
+        unplaced(placed, "normal")?;
+        check_point::<S>(self.normal, "normal")?;
+        check_point::<S>(S::Vec3::splat(self.offset), "offset")?;
+        if self.normal.max_abs() < S::LENGTH_MIN { Err(Flaw::Empty("normal")) } else { Ok(()) }
+    }
+
+    fn bounds(&self, _: Option<&Placement<S>>, _: &[S::Vec3]) -> Bounds<S> {
+        let mut bounds: Bounds<S> = Bounds::everywhere();
+        if let Some(axis) = self.axis() {
+            let at = self.offset / self.normal.get(axis);
+            let side: Bounds<S> = Bounds::between(S::Vec3::splat(at), S::Vec3::splat(at));
+            if self.normal.get(axis) > S::ZERO {
+                bounds.max = bounds.max.with(axis, side.max.get(axis));
+            } else {
+                bounds.min = bounds.min.with(axis, side.min.get(axis));
+            }
+        }
+        bounds
+    }
+
+    /// (offset − n·o) / (n·d). An oblique plane is solved a second time from the point found,
+    /// so that the error follows the point hit and not the distance of the origin.
+    #[inline]
+    fn spans(&self, sight: &Sight<'_, S>, mut emit: impl FnMut(Span<S>)) {
+        let (line, speed) = (sight.line, self.normal.dot(sight.line.dir));
+        let mut span = Span::whole();
+        if let Some(start) = sight.start {
+            if start.inward {
+                span.enter.t = S::ZERO;
+            } else {
+                span.exit.t = S::ZERO;
+            }
+            return emit(span);
+        }
+        let height = self.offset - self.normal.dot(line.origin);
+        if speed == S::ZERO {
+            if height >= S::ZERO {
+                emit(span);
+            }
+            return;
+        }
+        let inverse = S::ONE / speed;
+        let mut t = height * inverse;
+        if self.axis().is_none() && t.is_finite() {
+            let reached = line.recentred(S::Vec3::ZERO, t);
+            t += (self.offset - self.normal.dot(reached)) * inverse;
+        }
+        if speed > S::ZERO {
+            span.exit.t = t;
+        } else {
+            span.enter.t = t;
+        }
+        emit(span);
+    }
+
+    fn snap(&self, local: S::Vec3, _: u16) -> S::Vec3 {
+        match self.axis() {
+            Some(axis) => local.with(axis, self.offset / self.normal.get(axis)),
+            None => {
+                let gap = self.offset - self.normal.dot(local);
+                local + self.normal * (gap / self.normal.length_squared())
+            }
+        }
+    }
+
+    fn normal(&self, _: S::Vec3, _: u16, _: &[S::Vec3]) -> S::Vec3 {
+        self.normal
+    }
+
+    /// Distances along two axes in the plane: for the ground (normal +y), x and −z... the
+    /// basis of [`Vector::basis`].
+    fn uv(&self, local: S::Vec3, _: u16, _: &[S::Vec3]) -> [S; 2] {
+        let (u, v) = self.normal.normalize().basis();
+        [local.dot(u), local.dot(v)]
+    }
+}

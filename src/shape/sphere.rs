@@ -1,0 +1,85 @@
+//! The ball, and by placement the ellipsoid.
+
+use super::{Flaw, Primitive, Sight, check_centre, check_length, turn};
+use crate::bounds::Bounds;
+use crate::place::{Local, Placement};
+use crate::scalar::{Axis, Scalar, Vector};
+use crate::span::Span;
+
+/// A ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere<S: Scalar> {
+    /// The middle; zero for a placed ball.
+    pub center: S::Vec3,
+    /// The radius, greater than 0.
+    pub radius: S,
+}
+
+impl<S: Scalar> Primitive<S> for Sphere<S> {
+    const OPEN: bool = false;
+    const SPANS_MAX: u16 = 1;
+
+    fn centre(&self) -> S::Vec3 {
+        self.center
+    }
+
+    fn check(&self, placed: bool, _: &[S::Vec3]) -> Result<(), Flaw> {
+        check_centre::<S>(self.center, placed)?;
+        check_length(self.radius, "radius")
+    }
+
+    fn bounds(&self, place: Option<&Placement<S>>, _: &[S::Vec3]) -> Bounds<S> {
+        match place {
+            None => Bounds::about(self.center, S::Vec3::splat(self.radius)),
+            Some(place) => {
+                let [x, y, z] = place.to_world.map(|row| row.length() * self.radius);
+                Bounds::about(place.anchor, S::Vec3::new(x, y, z))
+            }
+        }
+    }
+
+    /// Recentred on the point nearest to the centre, where half the chord is √(r² − m²) in
+    /// plain arithmetic; a ray from the surface has its other root at −2b/a.
+    #[inline]
+    fn spans(&self, sight: &Sight<'_, S>, mut emit: impl FnMut(Span<S>)) {
+        if let Some(start) = sight.start {
+            let ray = Local::from_surface(sight.line, sight.place, start.local);
+            let other = (ray.origin.dot(ray.dir) * S::TWO).abs() * ray.inv_dd;
+            emit(from_start(start.inward, other));
+            return;
+        }
+        let ray = Local::recentred(sight.line, sight.place, self.center);
+        let middle = -ray.origin.dot(ray.dir) * ray.inv_dd;
+        let nearest = ray.origin + ray.dir * middle;
+        let square = self.radius.squared() - nearest.length_squared();
+        if square > S::ZERO {
+            let half = (square * ray.inv_dd).sqrt();
+            emit(Span::of_face(0, ray.shift + (middle - half), ray.shift + (middle + half)));
+        }
+    }
+
+    fn snap(&self, local: S::Vec3, _: u16) -> S::Vec3 {
+        let snapped = local.normalize() * self.radius;
+        if snapped == S::Vec3::ZERO { S::Vec3::ZERO.with(Axis::Y, self.radius) } else { snapped }
+    }
+
+    fn normal(&self, local: S::Vec3, _: u16, _: &[S::Vec3]) -> S::Vec3 {
+        local
+    }
+
+    /// Longitude from −x through −z as u, latitude from the south pole (−y) as v, both in 0..=1.
+    fn uv(&self, local: S::Vec3, _: u16, _: &[S::Vec3]) -> [S; 2] {
+        let v = S::ONE - (local.y() / self.radius).acos() / S::PI;
+        [turn(local.x(), local.z()), v]
+    }
+}
+
+/// The span of a ray that starts on a curved face whose other root lies `other` away: the
+/// side on which it lies is known from the normal, not from rounding.
+pub(super) fn from_start<S: Scalar>(inward: bool, other: S) -> Span<S> {
+    if inward {
+        Span::of_face(0, S::ZERO, other.max(S::TINY))
+    } else {
+        Span::of_face(0, -other, S::ZERO)
+    }
+}
