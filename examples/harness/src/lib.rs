@@ -1,5 +1,25 @@
-//! What the examples and tests of nostray share: scenes of any size on the heap.
+//! What the examples and tests of nostray share, on a host with `std`: scenes of any size,
+//! scene files, a gallery, pictures as files, and the commands `render` and `probe`.
 
+mod assemble;
+mod failure;
+mod flaw;
 mod heap;
+mod moves;
+mod origin;
+mod render_command;
+mod solids;
+mod sphereflake;
 
+pub mod document;
+pub mod gallery;
+pub mod output;
+pub mod raster;
+pub mod read;
+pub mod source;
+pub mod written;
+
+pub use assemble::Assembly;
+pub use flaw::Flaw;
 pub use heap::{Growable, Heap};
+pub use render_command::render_command;

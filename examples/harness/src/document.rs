@@ -1,0 +1,334 @@
+//! The structure of a scene file, as it is written in RON or JSON.
+//!
+//! Everything is in `f64` and as the writer put it: lists of placements are not multiplied,
+//! names are not looked up. A field that is not known is an error; one that may be left out
+//! says what stands for it.
+
+use serde::Deserialize;
+
+use crate::written::{Background, Factor, Paint, Table, Triple, present};
+
+/// A whole scene file.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Document {
+    /// The viewer.
+    pub camera: Camera,
+    /// What lies behind everything; black if left out.
+    #[serde(default)]
+    pub background: Background,
+    /// The light that is everywhere; none if left out.
+    #[serde(default)]
+    pub ambient: Triple,
+    /// The lights.
+    #[serde(default)]
+    pub lights: Vec<Light>,
+    /// The textures, by name, in any order.
+    #[serde(default)]
+    pub textures: Table<Texture>,
+    /// The materials, by name.
+    #[serde(default)]
+    pub materials: Table<Material>,
+    /// The solids.
+    #[serde(default)]
+    pub objects: Vec<Object>,
+}
+
+/// The viewer: a pinhole with `fov`, or parallel rays with `height`.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Camera {
+    /// Where the viewer is.
+    pub eye: Triple,
+    /// The point in the middle of the picture.
+    pub look_at: Triple,
+    /// A direction that points up in the picture; +y if left out.
+    #[serde(default = "upward")]
+    pub up: Triple,
+    /// The full vertical angle of a pinhole, in degrees; 40 if neither it nor `height` is given.
+    #[serde(default, deserialize_with = "present")]
+    pub fov: Option<f64>,
+    /// The height of an orthographic picture, in the units of the scene.
+    #[serde(default, deserialize_with = "present")]
+    pub height: Option<f64>,
+}
+
+fn upward() -> Triple {
+    Triple([0.0, 1.0, 0.0])
+}
+
+/// A source of light.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Light {
+    /// A point that shines to all sides.
+    Point {
+        /// Where it is.
+        at: Triple,
+        /// Its intensity.
+        color: Triple,
+        /// How it weakens with the distance; not at all if left out.
+        #[serde(default)]
+        attenuation: Attenuation,
+    },
+    /// Parallel light from infinitely far.
+    Directional {
+        /// Where the light goes, of any length but 0.
+        toward: Triple,
+        /// Its intensity.
+        color: Triple,
+    },
+    /// A point that shines into a cone.
+    Spot {
+        /// Where it is.
+        at: Triple,
+        /// The axis of the cone, away from the light, of any length but 0.
+        toward: Triple,
+        /// The half angle, in degrees, within which the light is full.
+        inner: f64,
+        /// The half angle, in degrees, beyond which there is none.
+        outer: f64,
+        /// Its intensity.
+        color: Triple,
+        /// How it weakens with the distance; not at all if left out.
+        #[serde(default)]
+        attenuation: Attenuation,
+    },
+}
+
+/// How light weakens with the distance r: 1 / (constant + linear·r + quadratic·r²).
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Attenuation {
+    /// The part that does not depend on the distance; 1 if left out.
+    pub constant: f64,
+    /// The factor of the distance; 0 if left out.
+    pub linear: f64,
+    /// The factor of the square of the distance; 0 if left out.
+    pub quadratic: f64,
+}
+
+impl Default for Attenuation {
+    fn default() -> Self {
+        Self { constant: 1.0, linear: 0.0, quadratic: 0.0 }
+    }
+}
+
+/// A pattern.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Texture {
+    /// Two paints in alternate cells.
+    Checker {
+        /// The paint of the cell at the origin, and the other.
+        colors: [Paint; 2],
+        /// The edge of a cell, or its edges along x, y and z; 1 if left out.
+        #[serde(default)]
+        size: Factor,
+        /// Which coordinates it is drawn in; those of the scene if left out.
+        #[serde(default)]
+        mapping: Mapping,
+        /// From the coordinates of a solid pattern to the scene's.
+        #[serde(default)]
+        place: Vec<Move>,
+    },
+}
+
+/// Which coordinates a pattern is drawn in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+pub enum Mapping {
+    /// The surface's own two.
+    Uv,
+    /// The three of the scene.
+    #[default]
+    Solid,
+}
+
+/// What a surface does with light, and what fills the solid behind it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Material {
+    /// The colour, or the name of a texture; white if left out.
+    pub color: Paint,
+    /// The share of the ambient light; 1 if left out.
+    pub ambient: f64,
+    /// The share of the diffuse reflection; 0.7 if left out.
+    pub diffuse: f64,
+    /// The strength of the highlights; 0 if left out.
+    pub specular: f64,
+    /// The exponent of the highlights; 32 if left out.
+    pub shininess: f64,
+    /// The shape of the highlights; Phong if left out.
+    pub highlight: Highlight,
+    /// Highlights and mirror images take the surface's colour; not if left out.
+    pub metallic: bool,
+    /// The weight of the mirrored ray; 0 if left out.
+    pub reflect: f64,
+    /// The weight of the refracted ray; 0 if left out.
+    pub transmit: f64,
+    /// The index of refraction inside; 1 if left out.
+    pub ior: f64,
+    /// More reflection at grazing angles; off if left out.
+    pub fresnel: Fresnel,
+    /// Absorption inside, per unit of length; none if left out.
+    pub absorb: Triple,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self {
+            color: Paint::default(),
+            ambient: 1.0,
+            diffuse: 0.7,
+            specular: 0.0,
+            shininess: 32.0,
+            highlight: Highlight::Phong,
+            metallic: false,
+            reflect: 0.0,
+            transmit: 0.0,
+            ior: 1.0,
+            fresnel: Fresnel::Off,
+            absorb: Triple::default(),
+        }
+    }
+}
+
+/// The shape of a highlight.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum Highlight {
+    /// By the angle between the mirrored light and the viewer.
+    Phong,
+    /// By the angle between the normal and the half vector.
+    Blinn,
+}
+
+/// Whether a dielectric reflects more at a grazing angle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum Fresnel {
+    /// The weights stay as they are.
+    Off,
+    /// Schlick's approximation.
+    Schlick,
+    /// Fresnel's equations for unpolarised light.
+    Exact,
+}
+
+/// A solid with its material and its place.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Object {
+    /// What it is.
+    pub solid: Solid,
+    /// The name of the material that fills it and covers what has none of its own; that of the
+    /// first part of the solid if left out.
+    #[serde(default, deserialize_with = "present")]
+    pub material: Option<String>,
+    /// Where it stands: moves, applied in order.
+    #[serde(default)]
+    pub place: Vec<Move>,
+}
+
+/// A solid.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Solid {
+    /// A ball.
+    Sphere {
+        /// The middle.
+        center: Triple,
+        /// The radius.
+        radius: f64,
+    },
+    /// The half-space `normal · p ≤ offset`.
+    Plane {
+        /// The outward normal, of any length but 0.
+        normal: Triple,
+        /// `normal · p` for a point of the plane.
+        offset: f64,
+    },
+    /// A box along the axes.
+    Box {
+        /// The least coordinates.
+        min: Triple,
+        /// The greatest coordinates.
+        max: Triple,
+    },
+    /// A cylinder between the middles of its caps.
+    Cylinder {
+        /// The middle of the lower cap.
+        base: Triple,
+        /// The middle of the upper cap.
+        top: Triple,
+        /// The radius.
+        radius: f64,
+    },
+    /// A cone or frustum between the middles of its caps.
+    Cone {
+        /// The middle of the lower cap.
+        base: Triple,
+        /// The radius of the lower cap.
+        base_radius: f64,
+        /// The middle of the upper cap.
+        top: Triple,
+        /// The radius of the upper cap.
+        top_radius: f64,
+    },
+    /// A triangle, an open surface.
+    Triangle {
+        /// The first corner; the three are counterclockwise from outside.
+        a: Triple,
+        /// The second corner.
+        b: Triple,
+        /// The third corner.
+        c: Triple,
+        /// The normals that light sees at the corners, if it is to look curved.
+        #[serde(default, deserialize_with = "present")]
+        normals: Option<[Triple; 3]>,
+    },
+    /// A plane polygon, an open surface: vertices counterclockwise from outside.
+    Polygon(Vec<Triple>),
+    /// In any of them.
+    Union(Vec<Self>),
+    /// In all of them.
+    Intersection(Vec<Self>),
+    /// In the first and in none of the others.
+    Difference(Vec<Self>),
+    /// In an odd number of them.
+    Xor(Vec<Self>),
+    /// Not in it.
+    Complement(Box<Self>),
+    /// A solid with its own material or place.
+    With {
+        /// The solid.
+        solid: Box<Self>,
+        /// The name of its material; the one around it if left out.
+        #[serde(default, deserialize_with = "present")]
+        material: Option<String>,
+        /// Where it stands: moves, applied in order and before those around it.
+        #[serde(default)]
+        place: Vec<Move>,
+    },
+}
+
+/// One step of a placement.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Move {
+    /// By a vector.
+    Translate(Triple),
+    /// By a factor, or by one along each axis.
+    Scale(Factor),
+    /// Right-handed about the x axis, in degrees.
+    RotateX(f64),
+    /// Right-handed about the y axis, in degrees.
+    RotateY(f64),
+    /// Right-handed about the z axis, in degrees.
+    RotateZ(f64),
+    /// Right-handed about any axis through the origin.
+    Rotate {
+        /// The axis, of any length but 0.
+        axis: Triple,
+        /// The angle in degrees.
+        degrees: f64,
+    },
+}

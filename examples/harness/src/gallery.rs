@@ -1,0 +1,62 @@
+//! Scenes that come with the project.
+
+use crate::document::Document;
+use crate::read::{Syntax, Unreadable, read};
+use crate::sphereflake::sphereflake;
+
+/// A scene of the gallery.
+#[derive(Debug)]
+pub struct Entry {
+    /// What it is called.
+    pub name: &'static str,
+    /// What it shows, in one line.
+    pub description: &'static str,
+    origin: Origin,
+}
+
+#[derive(Debug)]
+enum Origin {
+    /// A scene file.
+    Ron(&'static str),
+    /// Made at run time.
+    Made(fn() -> Document),
+}
+
+/// The entry of a scene file in the gallery's folder.
+macro_rules! file {
+    ($name:literal, $description:literal) => {
+        Entry {
+            name: $name,
+            description: $description,
+            origin: Origin::Ron(include_str!(concat!("../gallery/", $name, ".ron"))),
+        }
+    };
+}
+
+/// All scenes, the default one first.
+pub static GALLERY: &[Entry] = &[
+    file!("showcase", "solids, glass and mirrors on a checkered floor"),
+    Entry {
+        name: "sphereflake",
+        description: "820 mirroring spheres, made at run time",
+        origin: Origin::Made(|| sphereflake(3)),
+    },
+];
+
+/// The entry of a name.
+pub fn find(name: &str) -> Option<&'static Entry> {
+    GALLERY.iter().find(|entry| entry.name == name)
+}
+
+impl Entry {
+    /// The scene as a document.
+    ///
+    /// # Errors
+    /// If its file is not one.
+    pub fn document(&self) -> Result<Document, Unreadable> {
+        match self.origin {
+            Origin::Ron(text) => read(text, Syntax::Ron),
+            Origin::Made(make) => Ok(make()),
+        }
+    }
+}

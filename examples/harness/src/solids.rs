@@ -1,0 +1,253 @@
+//! The solids of a document, node by node into a scene builder.
+
+use std::collections::HashMap;
+
+use nostray::{Affine, Form, Operator, Scalar, SceneBuilder, SceneError, Vector};
+
+use crate::assemble::vector;
+use crate::document::{Object, Solid};
+use crate::flaw::{Flaw, Path};
+use crate::heap::Heap;
+use crate::moves::{compose, converted};
+use crate::origin::Origins;
+
+/// Adds solids to a scene, and remembers where the nodes of the current one came from.
+pub(crate) struct Planter<'a, S: Scalar> {
+    builder: &'a mut SceneBuilder<S, Heap>,
+    /// The materials by name; without them every name stands for material 0.
+    materials: Option<&'a HashMap<&'a str, u16>>,
+    /// The paths of the nodes of the object that is being added.
+    nodes: Vec<String>,
+    /// The nodes of the objects before it.
+    before: u32,
+}
+
+/// What a node inherits from those around it.
+#[derive(Clone, Copy)]
+struct Around<'a> {
+    to_world: &'a Affine<f64>,
+    material: Option<u16>,
+    /// What fills the object.
+    fill: u16,
+}
+
+impl<'a, S: Scalar> Planter<'a, S> {
+    pub(crate) fn new(
+        builder: &'a mut SceneBuilder<S, Heap>,
+        materials: Option<&'a HashMap<&'a str, u16>>,
+    ) -> Self {
+        Self { builder, materials, nodes: Vec::new(), before: 0 }
+    }
+
+    /// Adds one object.
+    pub(crate) fn object(&mut self, object: &Object, path: &Path<'_>) -> Result<(), Flaw> {
+        let to_world = compose(&object.place, &path.field("place"))?;
+        let named = match &object.material {
+            Some(name) => Some(self.material(name, &path.field("material"))?),
+            None => None,
+        };
+        self.plant(&object.solid, &to_world, named, &path.field("solid"))
+    }
+
+    /// Adds a solid with a placement and, unless it brings its own, a material.
+    pub(crate) fn plant(
+        &mut self,
+        solid: &Solid,
+        to_world: &Affine<f64>,
+        material: Option<u16>,
+        path: &Path<'_>,
+    ) -> Result<(), Flaw> {
+        let (fill, first) = match material {
+            Some(material) => (material, Some(material)),
+            None => {
+                let first = self.first_material(solid, path)?;
+                let missing = || Flaw::new(path, "has no material");
+                (first.ok_or_else(missing)?, first)
+            }
+        };
+        let around = Around { to_world, material, fill };
+        // A leaf of its own object is filled with what covers it; two materials need a node more.
+        let wrapped = is_leaf(solid) && self.first_material(solid, path)?.or(first) != Some(fill);
+        if wrapped {
+            self.open(Operator::Union, path)?;
+        }
+        self.node(solid, around, path)?;
+        if wrapped {
+            self.close(around, path)?;
+        }
+        self.before += self.nodes.len() as u32;
+        self.nodes.clear();
+        Ok(())
+    }
+
+    fn node(&mut self, solid: &Solid, around: Around<'_>, path: &Path<'_>) -> Result<(), Flaw> {
+        match solid {
+            Solid::With { solid, material, place } => {
+                let path = path.field("With");
+                let own = compose(place, &path.field("place"))?;
+                let material = match material {
+                    Some(name) => Some(self.material(name, &path.field("material"))?),
+                    None => around.material,
+                };
+                let to_world = own.then(around.to_world);
+                let inside = Around { to_world: &to_world, material, ..around };
+                self.node(solid, inside, &path.field("solid"))
+            }
+            Solid::Union(operands) => self.operator(Operator::Union, operands, around, path),
+            Solid::Intersection(operands) => {
+                self.operator(Operator::Intersection, operands, around, path)
+            }
+            Solid::Difference(operands) => {
+                self.operator(Operator::Difference, operands, around, path)
+            }
+            Solid::Xor(operands) => self.operator(Operator::Xor, operands, around, path),
+            Solid::Complement(operand) => {
+                self.open(Operator::Complement, &path.field("Complement"))?;
+                self.node(operand, around, &path.field("Complement"))?;
+                self.close(around, path)
+            }
+            leaf => self.leaf(leaf, around, path),
+        }
+    }
+
+    fn operator(
+        &mut self,
+        operator: Operator,
+        operands: &[Solid],
+        around: Around<'_>,
+        path: &Path<'_>,
+    ) -> Result<(), Flaw> {
+        let name = format!("{operator:?}");
+        let path = path.field(&name);
+        self.open(operator, &path)?;
+        for (index, operand) in operands.iter().enumerate() {
+            self.node(operand, around, &path.entry(index))?;
+        }
+        self.close(around, &path)
+    }
+
+    fn open(&mut self, operator: Operator, path: &Path<'_>) -> Result<(), Flaw> {
+        self.nodes.push(path.to_string());
+        self.builder.open(operator).map_err(|error| self.flaw(&error, path))
+    }
+
+    fn close(&mut self, around: Around<'_>, path: &Path<'_>) -> Result<(), Flaw> {
+        self.builder.close(around.fill).map_err(|error| self.flaw(&error, path))
+    }
+
+    fn leaf(&mut self, leaf: &Solid, around: Around<'_>, path: &Path<'_>) -> Result<(), Flaw> {
+        let v = vector::<S>;
+        let s = S::from_f64;
+        let mut vertices = Vec::new();
+        let (name, form) = match *leaf {
+            Solid::Sphere { center, radius } => {
+                ("Sphere", Form::Sphere { center: v(center), radius: s(radius) })
+            }
+            Solid::Plane { normal, offset } => {
+                ("Plane", Form::Plane { normal: v(normal), offset: s(offset) })
+            }
+            Solid::Box { min, max } => ("Box", Form::Box { min: v(min), max: v(max) }),
+            Solid::Cylinder { base, top, radius } => {
+                ("Cylinder", Form::Cylinder { base: v(base), top: v(top), radius: s(radius) })
+            }
+            Solid::Cone { base, base_radius, top, top_radius } => {
+                let (base_radius, top_radius) = (s(base_radius), s(top_radius));
+                ("Cone", Form::Cone { base: v(base), base_radius, top: v(top), top_radius })
+            }
+            Solid::Triangle { a, b, c, normals } => {
+                let normals = normals.map(|normals| normals.map(v));
+                ("Triangle", Form::Triangle { corners: [a, b, c].map(v), normals })
+            }
+            Solid::Polygon(ref written) => {
+                vertices.extend(written.iter().map(|&vertex| v(vertex)));
+                ("Polygon", Form::Polygon { vertices: &vertices })
+            }
+            _ => return Err(Flaw::new(path, "is not a shape")),
+        };
+        let path = path.field(name);
+        let material = around.material.ok_or_else(|| Flaw::new(&path, "has no material"))?;
+        self.check_reach(&form, around.to_world, &path)?;
+        self.nodes.push(path.to_string());
+        let added = self.builder.leaf(form, &converted(around.to_world), material);
+        added.map_err(|error| self.flaw(&error, &path))
+    }
+
+    /// A point of the shape must still be in the legal range when it is placed.
+    fn check_reach(
+        &self,
+        form: &Form<'_, S>,
+        to_world: &Affine<f64>,
+        path: &Path<'_>,
+    ) -> Result<(), Flaw> {
+        let point = match *form {
+            Form::Sphere { center, .. } => center,
+            Form::Box { min, .. } => min,
+            Form::Cylinder { base, .. } | Form::Cone { base, .. } => base,
+            Form::Plane { .. } | Form::Triangle { .. } | Form::Polygon { .. } => S::Vec3::ZERO,
+        };
+        let point = <f64 as Scalar>::Vec3::from_array(point.to_array().map(S::to_f64));
+        // What is not a number is left to the check of the shape itself.
+        if point.is_finite() && to_world.point(point).max_abs() > S::COORD_MAX.to_f64() {
+            return Err(Flaw::new(path, "is placed beyond the range of this number format"));
+        }
+        Ok(())
+    }
+
+    fn material(&self, name: &str, path: &Path<'_>) -> Result<u16, Flaw> {
+        match self.materials {
+            None => Ok(0),
+            Some(materials) => materials
+                .get(name)
+                .copied()
+                .ok_or_else(|| Flaw::new(path, format!("there is no material {name:?}"))),
+        }
+    }
+
+    /// The material of the first leaf, if it brings its own.
+    fn first_material(&self, solid: &Solid, path: &Path<'_>) -> Result<Option<u16>, Flaw> {
+        let (mut solid, mut found) = (solid, None);
+        loop {
+            solid = match solid {
+                Solid::With { solid, material, .. } => {
+                    if let Some(name) = material {
+                        found = Some(self.material(name, path)?);
+                    }
+                    solid
+                }
+                Solid::Union(operands)
+                | Solid::Intersection(operands)
+                | Solid::Difference(operands)
+                | Solid::Xor(operands) => match operands.first() {
+                    Some(first) => first,
+                    None => return Ok(found),
+                },
+                Solid::Complement(operand) => operand,
+                _ => return Ok(found),
+            };
+        }
+    }
+
+    /// An error of the builder, told by the path of the node that it names.
+    fn flaw(&self, error: &SceneError, path: &Path<'_>) -> Flaw {
+        let node = Origins::node_of(error).and_then(|node| node.checked_sub(self.before));
+        match node.and_then(|node| self.nodes.get(node as usize)) {
+            Some(path) => Origins::at(error, path),
+            None => Origins::at(error, path),
+        }
+    }
+}
+
+/// It is one shape, whatever its material and place.
+fn is_leaf(mut solid: &Solid) -> bool {
+    while let Solid::With { solid: inner, .. } = solid {
+        solid = inner;
+    }
+    !matches!(
+        solid,
+        Solid::Union(_)
+            | Solid::Intersection(_)
+            | Solid::Difference(_)
+            | Solid::Xor(_)
+            | Solid::Complement(_)
+    )
+}
