@@ -49,6 +49,14 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 }
 
 impl Entry {
+    /// The text of its scene file, if it has one.
+    pub fn text(&self) -> Option<&'static str> {
+        match self.origin {
+            Origin::Ron(text) => Some(text),
+            Origin::Made(_) => None,
+        }
+    }
+
     /// The scene as a document.
     ///
     /// # Errors

@@ -5,6 +5,7 @@ mod assemble;
 mod failure;
 mod flaw;
 mod heap;
+mod locate;
 mod moves;
 mod origin;
 mod probe_command;

@@ -40,9 +40,16 @@ impl Origins {
     /// An error whose item has the given path in the document.
     pub(crate) fn at(error: &SceneError, path: impl std::fmt::Display) -> Flaw {
         let (field, message) = told(error);
-        match field.map(|field| written_as(error, field)) {
-            Some("") | None => Flaw::new(path, message),
-            Some(field) => Flaw::new(format_args!("{path}.{field}"), message),
+        match field {
+            None => Flaw::new(path, message),
+            // The parameter is the whole value, or several fields of it.
+            Some("corners") => Flaw::new(path, format!("the corners {message}")),
+            Some("vertices") => Flaw::new(path, format!("the vertices {message}")),
+            Some("placement") => Flaw::new(path, format!("the placement {message}")),
+            Some(field) => {
+                let field = written_as(error, field);
+                Flaw::new(format_args!("{path}.{field}"), message)
+            }
         }
     }
 
@@ -55,14 +62,12 @@ impl Origins {
     }
 }
 
-/// The name that a document has for a parameter of the core; none where the parameter is
-/// the whole value.
+/// The name that a document has for a parameter of the core.
 fn written_as(error: &SceneError, field: &'static str) -> &'static str {
     match (item(error), field) {
         (Some(Item::Light(_)), "cone") => "outer",
         (Some(Item::Texture(_)), "color") => "colors",
         (Some(Item::Node(_)), "half_height") => "top",
-        (Some(Item::Node(_)), "corners" | "vertices" | "placement") => "",
         _ => field,
     }
 }
@@ -88,7 +93,13 @@ fn told(error: &SceneError) -> (Option<&'static str>, String) {
             return (field, "must not be along the line of sight".to_owned());
         }
         (SceneError::NotFinite { .. }, Some("placement")) => {
-            return (field, "the placement is beyond the range of this number format".to_owned());
+            return (field, "is beyond the range of this number format".to_owned());
+        }
+        (SceneError::Empty { .. }, Some("corners")) => {
+            return (field, "lie on one line".to_owned());
+        }
+        (SceneError::Empty { .. }, Some("vertices")) => {
+            return (field, "span no area".to_owned());
         }
         _ => error.to_string(),
     };

@@ -91,7 +91,9 @@ fn read_json(text: &str) -> Result<Document, Unreadable> {
 
 fn path_of(path: &serde_path_to_error::Path) -> String {
     let path = path.to_string();
-    if path == "." { String::new() } else { path }
+    // What it does not know it writes as a question mark.
+    let known = path.trim_end_matches('?').trim_end_matches('.');
+    known.to_owned()
 }
 
 /// A message without its line breaks.

@@ -134,8 +134,7 @@ impl Options {
         let loaded = source.load::<S>().map_err(Failure::scene)?;
         let order = self.order::<S>(loaded.size)?;
         let name = source.name();
-        let scene = loaded.assembly.scene();
-        let scene = scene.map_err(|flaw| Failure::scene(format!("{name}: {flaw}")))?;
+        let scene = loaded.scene().map_err(Failure::scene)?;
 
         let bar = progress(order.rows.len());
         let begun = Instant::now();

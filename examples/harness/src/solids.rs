@@ -57,17 +57,17 @@ impl<'a, S: Scalar> Planter<'a, S> {
         material: Option<u16>,
         path: &Path<'_>,
     ) -> Result<(), Flaw> {
-        let (fill, first) = match material {
-            Some(material) => (material, Some(material)),
-            None => {
-                let first = self.first_material(solid, path)?;
-                let missing = || Flaw::new(path, "has no material");
-                (first.ok_or_else(missing)?, first)
-            }
+        let first = first_material(solid);
+        // A name that is unknown is told at its place, when the walk comes there.
+        let first_index = first.and_then(|name| self.index_of(name));
+        let fill = match material {
+            Some(material) => material,
+            None if first.is_none() => return Err(Flaw::new(path, "has no material")),
+            None => first_index.unwrap_or(0),
         };
         let around = Around { to_world, material, fill };
         // A leaf of its own object is filled with what covers it; two materials need a node more.
-        let wrapped = is_leaf(solid) && self.first_material(solid, path)?.or(first) != Some(fill);
+        let wrapped = is_leaf(solid) && first_index.is_some_and(|index| index != fill);
         if wrapped {
             self.open(Operator::Union, path)?;
         }
@@ -194,36 +194,14 @@ impl<'a, S: Scalar> Planter<'a, S> {
     }
 
     fn material(&self, name: &str, path: &Path<'_>) -> Result<u16, Flaw> {
-        match self.materials {
-            None => Ok(0),
-            Some(materials) => materials
-                .get(name)
-                .copied()
-                .ok_or_else(|| Flaw::new(path, format!("there is no material {name:?}"))),
-        }
+        let unknown = || Flaw::new(path, format!("there is no material {name:?}"));
+        self.index_of(name).ok_or_else(unknown)
     }
 
-    /// The material of the first leaf, if it brings its own.
-    fn first_material(&self, solid: &Solid, path: &Path<'_>) -> Result<Option<u16>, Flaw> {
-        let (mut solid, mut found) = (solid, None);
-        loop {
-            solid = match solid {
-                Solid::With { solid, material, .. } => {
-                    if let Some(name) = material {
-                        found = Some(self.material(name, path)?);
-                    }
-                    solid
-                }
-                Solid::Union(operands)
-                | Solid::Intersection(operands)
-                | Solid::Difference(operands)
-                | Solid::Xor(operands) => match operands.first() {
-                    Some(first) => first,
-                    None => return Ok(found),
-                },
-                Solid::Complement(operand) => operand,
-                _ => return Ok(found),
-            };
+    fn index_of(&self, name: &str) -> Option<u16> {
+        match self.materials {
+            None => Some(0),
+            Some(materials) => materials.get(name).copied(),
         }
     }
 
@@ -234,6 +212,28 @@ impl<'a, S: Scalar> Planter<'a, S> {
             Some(path) => Origins::at(error, path),
             None => Origins::at(error, path),
         }
+    }
+}
+
+/// The name of the material of the first leaf, if it brings its own.
+fn first_material(mut solid: &Solid) -> Option<&str> {
+    let mut found = None;
+    loop {
+        solid = match solid {
+            Solid::With { solid, material, .. } => {
+                found = material.as_deref().or(found);
+                solid
+            }
+            Solid::Union(operands)
+            | Solid::Intersection(operands)
+            | Solid::Difference(operands)
+            | Solid::Xor(operands) => match operands.first() {
+                Some(first) => first,
+                None => return found,
+            },
+            Solid::Complement(operand) => operand,
+            _ => return found,
+        };
     }
 }
 

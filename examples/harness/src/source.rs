@@ -2,11 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use nostray::Scalar;
+use nostray::{Scalar, Scene};
 
 use crate::assemble::Assembly;
+use crate::flaw::Flaw;
 use crate::gallery::{self, Entry};
-use crate::read::{Syntax, read};
+use crate::locate::locate;
+use crate::read::{Syntax, Unreadable, read};
 
 /// A scene that was asked for by name.
 #[derive(Clone, Debug)]
@@ -27,10 +29,38 @@ pub enum Kind {
 /// A scene, ready to be checked and rendered.
 #[derive(Clone, Debug)]
 pub struct Loaded<S: Scalar> {
-    /// Its tables.
-    pub assembly: Assembly<S>,
     /// The size of the picture, where the scene tells.
     pub size: Option<(u32, u32)>,
+    assembly: Assembly<S>,
+    told: Told,
+}
+
+impl<S: Scalar> Loaded<S> {
+    /// The checked scene.
+    ///
+    /// # Errors
+    /// One line that names the file, and the line and the field that is wrong.
+    pub fn scene(&self) -> Result<Scene<'_, S>, String> {
+        self.assembly.scene().map_err(|flaw| self.told.flaw(&flaw))
+    }
+}
+
+/// What messages about a scene are made of.
+#[derive(Clone, Debug)]
+struct Told {
+    name: String,
+    text: Option<(String, Syntax)>,
+}
+
+impl Told {
+    fn flaw(&self, flaw: &Flaw) -> String {
+        let place = self.text.as_ref();
+        let place = place.and_then(|(text, syntax)| locate(text, *syntax, &flaw.path));
+        match place {
+            Some((line, column)) => format!("{}:{line}:{column}: {flaw}", self.name),
+            None => format!("{}: {flaw}", self.name),
+        }
+    }
 }
 
 impl Source {
@@ -77,18 +107,23 @@ impl Source {
     /// Reads it into the tables of a scene.
     ///
     /// # Errors
-    /// One line that names the file, and the line or the field that is wrong.
+    /// One line that names the file, and the line and the field that is wrong.
     pub fn load<S: Scalar>(&self) -> Result<Loaded<S>, String> {
         let name = self.name();
-        let document = match self {
-            Self::Gallery(entry) => entry.document().map_err(|error| format!("{name}:{error}"))?,
+        let unread = |error: Unreadable| format!("{name}:{error}");
+        let (document, text) = match self {
+            Self::Gallery(entry) => {
+                let text = entry.text().map(|text| (text.to_owned(), Syntax::Ron));
+                (entry.document().map_err(unread)?, text)
+            }
             Self::File(path, Kind::Document(syntax)) => {
-                read(&text_of(path)?, *syntax).map_err(|error| format!("{name}:{error}"))?
+                let text = text_of(path)?;
+                (read(&text, *syntax).map_err(unread)?, Some((text, *syntax)))
             }
         };
-        let assembly =
-            Assembly::of_document(&document).map_err(|flaw| format!("{name}: {flaw}"))?;
-        Ok(Loaded { assembly, size: None })
+        let told = Told { name, text };
+        let assembly = Assembly::of_document(&document).map_err(|flaw| told.flaw(&flaw))?;
+        Ok(Loaded { size: None, assembly, told })
     }
 }
 
