@@ -121,3 +121,45 @@ impl Visitor<'_> for Key {
         Ok(name.to_owned())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RON: &str =
+        "(\n list: [\n  (a: 1),\n  Ball(a: Deep([\n   2,\n   (b:\n 3)])),\n ],\n {NAME})";
+
+    fn in_ron(path: &str) -> Option<usize> {
+        locate(&RON.replace("{NAME}", "names: {\"x.y\":\n (c: 0)}"), Syntax::Ron, path)
+            .map(|(line, _)| line)
+    }
+
+    #[test]
+    fn paths_lead_to_lines() {
+        assert_eq!(in_ron("list"), Some(2));
+        assert_eq!(in_ron("list[0].a"), Some(3));
+        assert_eq!(in_ron("list[1]"), Some(4));
+        assert_eq!(in_ron("list[1].Ball.a"), Some(4));
+        assert_eq!(in_ron("list[1].Ball.a.Deep[0]"), Some(5));
+        assert_eq!(in_ron("list[1].Ball.a.Deep[1].b"), Some(7));
+        assert_eq!(in_ron("names.x.y.c"), Some(10));
+    }
+
+    #[test]
+    fn other_paths_lead_nowhere() {
+        for path in ["lis", "list[2]", "list[0].b", "list[x]", "names.x", "list[1].Ball.a.Deep[7]"]
+        {
+            assert_eq!(in_ron(path), None, "{path}");
+        }
+        assert_eq!(locate("(", Syntax::Ron, "a"), None);
+        assert_eq!(locate("", Syntax::Json, "a"), None);
+    }
+
+    #[test]
+    fn json_is_searched_the_same_way() {
+        let text = "{\"list\": [0,\n {\"Ball\": {\"a\":\n [1,\n 2]}}]}";
+        let line = |path| locate(text, Syntax::Json, path).map(|(line, _)| line);
+        assert_eq!(line("list[1].Ball.a[1]"), Some(4));
+        assert_eq!(line("list[1].Ball.b"), None);
+    }
+}

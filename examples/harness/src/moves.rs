@@ -82,3 +82,58 @@ fn turn_about(axis: DVec3, degrees: f64) -> Affine<f64> {
     let row = |axis: Axis| DVec3::from_array(columns.map(|column| Vector::get(column, axis)));
     Affine { rows: Axis::ALL.map(row), offset: DVec3::ZERO }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail loudly")]
+
+    use super::*;
+
+    fn whole(moves: &[Move]) -> Affine<f64> {
+        compose(moves, &Path::Root).unwrap()
+    }
+
+    #[test]
+    fn rotations_about_an_axis_are_those_about_its_coordinate() {
+        for (axis, turn) in [
+            ([2.0, 0.0, 0.0], Move::RotateX as fn(f64) -> Move),
+            ([0.0, 0.5, 0.0], Move::RotateY),
+            ([0.0, 0.0, 1.0], Move::RotateZ),
+        ] {
+            for degrees in [-720.0, -30.0, 0.0, 45.0, 90.0, 180.0, 270.0, 1e3] {
+                let any = whole(&[Move::Rotate { axis: Triple(axis), degrees }]);
+                let own = whole(&[turn(degrees)]);
+                for (a, b) in any.rows.iter().zip(own.rows) {
+                    assert!((*a - b).length() < 1e-15, "{degrees} about {axis:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_rotation_about_the_diagonal_turns_the_axes_round() {
+        let turn = Move::Rotate { axis: Triple([1.0, 1.0, 1.0]), degrees: 120.0 };
+        let turned = whole(&[turn]).point(DVec3::X);
+        assert!((turned - DVec3::Y).length() < 1e-15, "{turned}");
+    }
+
+    #[test]
+    fn moves_are_applied_in_order() {
+        let moves = [
+            Move::Translate(Triple([1.0, 0.0, 0.0])),
+            Move::Scale(Factor([2.0, 3.0, 4.0])),
+            Move::RotateZ(90.0),
+        ];
+        assert_eq!(whole(&moves).point(DVec3::new(0.0, 1.0, 1.0)), DVec3::new(-3.0, 2.0, 4.0));
+    }
+
+    #[test]
+    fn flaws_are_told_by_their_place() {
+        let flaw = |step: Move| compose(&[step], &Path::Root.field("place")).unwrap_err().path;
+        assert_eq!(flaw(Move::Scale(Factor([1.0, 0.0, 1.0]))), "place[0].Scale");
+        assert_eq!(flaw(Move::Scale(Factor([f64::NAN; 3]))), "place[0].Scale");
+        assert_eq!(flaw(Move::RotateX(f64::INFINITY)), "place[0].RotateX");
+        let axis = Triple::default();
+        assert_eq!(flaw(Move::Rotate { axis, degrees: 1.0 }), "place[0].Rotate.axis");
+    }
+}

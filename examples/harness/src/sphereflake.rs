@@ -98,3 +98,35 @@ fn surroundings() -> Document {
         objects: Vec::new(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::indexing_slicing, reason = "a test may fail loudly")]
+
+    use super::*;
+
+    fn spheres(depth: u32) -> Vec<(DVec3, f64)> {
+        let of = |object: &Object| match object.solid {
+            Solid::Sphere { center, radius } => Some((DVec3::from_array(center.0), radius)),
+            _ => None,
+        };
+        sphereflake(depth).objects.iter().filter_map(of).collect()
+    }
+
+    #[test]
+    fn there_are_nine_times_as_many_at_each_depth() {
+        assert_eq!([0, 1, 2, 3].map(|depth| spheres(depth).len()), [1, 10, 91, 820]);
+    }
+
+    #[test]
+    fn each_touches_the_one_it_sits_on_and_no_other_of_its_size() {
+        let spheres = spheres(1);
+        let (first, small) = (spheres[0], &spheres[1..]);
+        for (index, &(center, radius)) in small.iter().enumerate() {
+            assert!((center.distance(first.0) - (first.1 + radius)).abs() < 1e-12);
+            for &(other, _) in &small[..index] {
+                assert!(center.distance(other) > 2.0 * radius - 1e-12);
+            }
+        }
+    }
+}

@@ -1,0 +1,489 @@
+//! The command `render`: what it writes, what it prints, and what it refuses.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::indexing_slicing,
+    reason = "a test may fail loudly"
+)]
+
+use std::ffi::OsString;
+use std::fs;
+use std::path::PathBuf;
+
+use nostray_harness::gallery::GALLERY;
+use nostray_harness::render_command;
+
+/// Exit code, stdout and stderr of a call.
+fn call(args: &[&str]) -> (u8, String, String) {
+    let (mut out, mut err) = (Vec::new(), Vec::new());
+    let args = std::iter::once("render").chain(args.iter().copied()).map(OsString::from);
+    let code = render_command(args, &mut out, &mut err);
+    (code, String::from_utf8(out).unwrap(), String::from_utf8(err).unwrap())
+}
+
+/// The output of a call that must succeed.
+fn output(args: &[&str]) -> String {
+    let (code, out, err) = call(args);
+    assert_eq!((code, err.as_str()), (0, ""), "{args:?}");
+    out
+}
+
+/// The message of a call that must fail with this code, in one line, without output.
+fn refusal(args: &[&str], code: u8) -> String {
+    let (found, out, err) = call(args);
+    assert_eq!((found, out.as_str()), (code, ""), "{args:?}: {err}");
+    let message = err.strip_prefix("error: ").expect("an error").strip_suffix('\n').unwrap();
+    assert!(!message.contains('\n') && !message.is_empty(), "one line: {err:?}");
+    message.to_owned()
+}
+
+/// A file in a folder of this test binary.
+fn path(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("render");
+    fs::create_dir_all(&folder).unwrap();
+    folder.join(name)
+}
+
+/// The path of a new scene file.
+fn file(name: &str, text: &str) -> String {
+    let path = path(name);
+    fs::write(&path, text).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+const CAMERA: &str = "camera: (eye: (0, 1, -5), look_at: (0, 0, 0))";
+const RED: &str = r#"materials: {"red": (color: (0.9, 0.1, 0.1), reflect: 0.3)}"#;
+
+/// A scene of one solid, in which it stands on the second line.
+fn scene_of(solid: &str) -> String {
+    format!("({CAMERA}, {RED}, objects: [(material: \"red\", solid:\n{solid})])")
+}
+
+const BALL: &str = "Sphere(center: (0, 0, 0), radius: 1)";
+
+/// A scene with something in it for all that the command counts.
+fn lit() -> String {
+    format!(
+        "({CAMERA}, {RED}, ambient: (0.1, 0.1, 0.1), background: (bottom: (1, 1, 1), top: (0, 0, 2)),
+          lights: [Point(at: (3, 5, -4), color: (1, 1, 1))],
+          objects: [(solid: {BALL}, material: \"red\"),
+                    (solid: Plane(normal: (0, 1, 0), offset: -1), material: \"red\")])"
+    )
+}
+
+#[test]
+fn any_threads_and_rows_give_the_same_bits() {
+    let scene = file("bits.ron", &lit());
+    for scalar in ["f32", "f64"] {
+        let common = [&scene, "--size", "41x23", "--scalar", scalar];
+        let with = |more: &[&str]| output(&[&common[..], more].concat());
+        let whole = with(&["--digest", "--threads", "1"]);
+        assert_eq!(whole.len(), 2 * 64 + 2);
+        for threads in ["2", "3", "40"] {
+            assert_eq!(with(&["--digest", "--threads", threads]), whole);
+        }
+        let all = path(&format!("whole-{scalar}.pfm"));
+        with(&["-o", all.to_str().unwrap()]);
+        let all = fs::read(all).unwrap();
+        // Rows of a .pfm go upwards, so the last part comes first.
+        let mut joined = b"PF\n41 23\n-1.0\n".to_vec();
+        for rows in ["17..23", "2..17", "1..2", "0..1"] {
+            let part = path(&format!("part-{scalar}-{rows}.pfm"));
+            with(&["--rows", rows, "--threads", "2", "-o", part.to_str().unwrap()]);
+            let part = fs::read(part).unwrap();
+            let header =
+                part.iter().enumerate().filter(|(_, byte)| **byte == b'\n').nth(2).unwrap();
+            joined.extend_from_slice(&part[header.0 + 1..]);
+        }
+        assert!(joined == all, "{scalar}: rows differ from those of the whole picture");
+    }
+}
+
+#[test]
+fn formats_hold_the_same_picture() {
+    let scene = file("formats.ron", &lit());
+    let of = |name: &str, more: &[&str]| {
+        let path = path(name);
+        let common = [&scene, "--size", "13x7", "-o", path.to_str().unwrap()];
+        assert_eq!(output(&[&common[..], more].concat()), "");
+        fs::read(path).unwrap()
+    };
+    let ppm = of("picture.ppm", &[]);
+    let bytes = ppm.strip_prefix(b"P6\n13 7\n255\n").expect("the header of a pixmap");
+    assert_eq!(bytes.len(), 13 * 7 * 3);
+    let png = image::load_from_memory(&of("picture.png", &[])).unwrap().into_rgb8();
+    assert_eq!((png.dimensions(), png.as_raw().as_slice()), ((13, 7), bytes));
+
+    let pfm = of("picture.pfm", &[]);
+    let light = pfm.strip_prefix(b"PF\n13 7\n-1.0\n").expect("the header of a float map");
+    let linear = of("linear.ppm", &["--transfer", "linear"]);
+    let linear = linear.strip_prefix(b"P6\n13 7\n255\n").unwrap();
+    let (parts, _) = light.as_chunks::<4>();
+    assert_eq!(parts.len(), linear.len());
+    for (y, row) in parts.chunks(13 * 3).rev().enumerate() {
+        for (x, part) in row.iter().enumerate() {
+            let expected = f64::from(f32::from_le_bytes(*part)).clamp(0.0, 1.0) * 255.0;
+            let byte = f64::from(linear[y * 13 * 3 + x]);
+            assert!((byte - expected).abs() <= 0.500_001, "{byte} for {expected} at {x}, {y}");
+        }
+    }
+    assert!(linear != bytes, "the curve must make a difference");
+}
+
+#[test]
+fn digest_is_of_the_bytes_and_of_the_bits() {
+    use sha2::{Digest, Sha256};
+    let scene = file("digest.ron", &lit());
+    let (ppm, pfm) = (path("digest.ppm"), path("digest.pfm"));
+    let printed = output(&[&scene, "--size", "9x1", "--digest", "-o", ppm.to_str().unwrap()]);
+    output(&[&scene, "--size", "9x1", "-o", pfm.to_str().unwrap()]);
+    let hex = |bytes: &[u8]| -> String {
+        Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    };
+    // Of a picture of one row the float map has the very bits in order.
+    let (ppm, pfm) = (fs::read(ppm).unwrap(), fs::read(pfm).unwrap());
+    let shown = ppm.strip_prefix(b"P6\n9 1\n255\n").unwrap();
+    let light = pfm.strip_prefix(b"PF\n9 1\n-1.0\n").unwrap();
+    assert_eq!(printed, format!("{} {}\n", hex(shown), hex(light)));
+}
+
+#[test]
+fn stats_are_one_json_object() {
+    let scene = file("stats.ron", &lit());
+    let stats = |more: &[&str]| -> serde_json::Value {
+        let printed =
+            output(&[&[&*scene, "--size", "20x10", "--stats", "--digest"], more].concat());
+        let (digest, stats) = printed.split_once('\n').unwrap();
+        assert_eq!(digest.len(), 2 * 64 + 1);
+        serde_json::from_str(stats).unwrap()
+    };
+    let number = |stats: &serde_json::Value, key: &str| {
+        stats[key].as_f64().unwrap_or_else(|| panic!("{key} in {stats}"))
+    };
+    let all = stats(&[]);
+    assert_eq!((number(&all, "pixels"), number(&all, "primary_rays")), (200.0, 200.0));
+    assert!(number(&all, "reflected_rays") > 0.0 && number(&all, "shadow_rays") > 0.0, "{all}");
+    assert_eq!((number(&all, "budget_cuts"), number(&all, "spent_max")), (0.0, 0.0));
+    assert_eq!((all["scalar"].as_str(), all["scene"].as_str()), (Some("f32"), Some(&*scene)));
+    // A budget that pays for every mirrored ray at once, and then a weight that none reaches.
+    let paid = stats(&["--error-max", "64"]);
+    assert_eq!(number(&paid, "reflected_rays"), 0.0);
+    assert!(number(&paid, "budget_cuts") > 0.0, "{paid}");
+    assert!(number(&paid, "spent_max") > 0.0 && number(&paid, "spent_max") <= 1.0, "{paid}");
+    let light = stats(&["--weight-min", "0.5", "--threads", "3"]);
+    assert_eq!(number(&light, "weight_cuts"), number(&paid, "budget_cuts"));
+    // Local light alone.
+    let flat = stats(&["--depth-max", "0", "--scalar", "f64"]);
+    assert_eq!((number(&flat, "reflected_rays"), flat["scalar"].as_str()), (0.0, Some("f64")));
+    assert!(number(&flat, "depth_cuts") > 0.0, "{flat}");
+}
+
+#[test]
+fn json_is_the_same_scene() {
+    let json = r#"{"camera": {"eye": [0, 1, -5], "look_at": [0, 0, 0]},
+        "materials": {"red": {"color": [0.9, 0.1, 0.1], "reflect": 0.3}},
+        "background": {"bottom": [0.1, 0.2, 0.3], "top": [0.3, 0.2, 0.1]},
+        "lights": [{"Directional": {"toward": [0, -2, 1], "color": [1, 1, 1]}}],
+        "objects": [{"material": "red", "place": [{"Scale": [1, 2, 1]}, {"RotateZ": 30}],
+            "solid": {"Difference": [{"Sphere": {"center": [0, 0, 0], "radius": 1}},
+                {"Box": {"min": [-2, 0, -2], "max": [0, 2, 2]}}]}}]}"#;
+    let ron = format!(
+        "({CAMERA}, {RED}, background: (bottom: (0.1, 0.2, 0.3), top: (0.3, 0.2, 0.1)),
+          lights: [Directional(toward: (0, -2, 1), color: (1, 1, 1))],
+          objects: [(material: \"red\", place: [Scale((1, 2, 1)), RotateZ(30)],
+            solid: Difference([{BALL}, Box(min: (-2, 0, -2), max: (0, 2, 2))]))])"
+    );
+    let digest =
+        |name: &str, text: &str| output(&[&file(name, text), "--size", "16x12", "--digest"]);
+    let (json, ron) = (digest("same.json", json), digest("same.ron", &ron));
+    assert_eq!(json, ron);
+    assert_ne!(json, digest("other.ron", &scene_of(BALL)));
+}
+
+#[test]
+fn placements_apply_from_the_inside_out() {
+    let digest = |name: &str, solid: &str| {
+        output(&[&file(name, &scene_of(solid)), "--size", "24x18", "--digest"])
+    };
+    let moved = "With(solid: Sphere(center: (0, 0, 0), radius: 0.5),
+        place: [Translate((0.25, 0, 0)), Scale(2), Rotate(axis: (0, 3, 0), degrees: 90)])";
+    let same = "With(solid: With(solid: Sphere(center: (0, 0, 0), radius: 0.5),
+        place: [Translate((0.25, 0, 0))]), place: [Scale(2), RotateY(90)])";
+    // (0.25, 0, 0) doubled is (0.5, 0, 0), and a quarter turn about y takes +x to −z.
+    let plain = "Sphere(center: (0, 0, -0.5), radius: 1)";
+    assert_eq!(digest("moved.ron", moved), digest("plain.ron", plain));
+    assert_eq!(digest("same-moves.ron", same), digest("plain.ron", plain));
+}
+
+#[test]
+fn textures_stand_in_any_order() {
+    let scene = |textures: &str| {
+        format!(
+            "({CAMERA}, ambient: (1, 1, 1), textures: {{{textures}}},
+              materials: {{\"m\": (color: \"outer\", diffuse: 0)}},
+              objects: [(material: \"m\", solid: {BALL})])"
+        )
+    };
+    let inner = "\"inner\": Checker(colors: ((1, 0, 0), (0, 1, 0)), size: 0.1)";
+    let outer = "\"outer\": Checker(colors: (\"inner\", (0, 0, 1)), size: (0.5, 9, 9))";
+    let digest =
+        |name: &str, text: &str| output(&[&file(name, text), "--size", "32x24", "--digest"]);
+    let forward = digest("forward.ron", &scene(&format!("{inner}, {outer}")));
+    let backward = digest("backward.ron", &scene(&format!("{outer}, {inner}")));
+    assert_eq!(forward, backward);
+
+    let ring = inner.replace("(0, 1, 0)", "\"outer\"");
+    let message = refusal(&[&file("ring.ron", &scene(&format!("{ring}, {outer}")))], 1);
+    assert!(message.contains("is made of itself"), "{message}");
+}
+
+#[test]
+fn bad_usage_is_refused_by_code_2() {
+    for (args, part) in [
+        (&["--nonsense"][..], "--nonsense"),
+        (&["nosuch"], "nosuch: is neither in the gallery"),
+        (&["scene.obj"], "scene.obj: is neither in the gallery"),
+        (&["--scalar", "q16"], "--scalar q16: is not supported"),
+        (&["--scalar", "q32"], "--scalar q32: is not supported"),
+        (&["--scalar", "f16"], "--scalar f16"),
+        (&["--samples", "4"], "--samples 4"),
+        (&["--samples", "0"], "--samples 0"),
+        (&["--adaptive", "0.1"], "--adaptive"),
+        (&["--size", "640"], "--size"),
+        (&["--size", "0x480"], "--size"),
+        (&["--size", "16777216x16777216"], "--rows"),
+        (&["--depth-max", "65"], "--depth-max 65: must be at most 64"),
+        (&["--depth-max", "-1"], "-1"),
+        (&["--weight-min", "-0.5"], "--weight-min -0.5"),
+        (&["--weight-min", "NaN"], "--weight-min"),
+        (&["--error-max", "inf"], "--error-max"),
+        (&["--threads", "0"], "--threads"),
+        (&["--rows", "5..5"], "--rows"),
+        (&["--rows", "7"], "--rows"),
+        (&["--rows", "479..481"], "--rows 479..481: the picture has 480 rows"),
+        (&["-o", "picture.jpg"], "picture.jpg: must end in .png, .ppm or .pfm"),
+        (&["--transfer", "gamma"], "--transfer"),
+    ] {
+        let message = refusal(args, 2);
+        assert!(message.contains(part), "{part:?} in {message:?}");
+    }
+}
+
+#[test]
+fn bad_files_are_told_by_line_and_field() {
+    for (name, text, part) in [
+        (
+            "negative",
+            scene_of("Sphere(center: (0, 0, 0), radius: -1)"),
+            ":2:35: objects[0].solid.Sphere.radius: must be greater than 0",
+        ),
+        (
+            "unknown-field",
+            scene_of("Sphere(center: (0, 0, 0), radious: 1)"),
+            ":2:27: objects[0].solid.Sphere.radious: ",
+        ),
+        ("missing-field", scene_of("Sphere(center: (0, 0, 0))"), "objects[0].solid.Sphere: "),
+        (
+            "short",
+            scene_of("Sphere(center: (0, 0), radius: 1)"),
+            "objects[0].solid.Sphere.center: ",
+        ),
+        (
+            "long",
+            scene_of("Sphere(center: (0, 0, 0, 0), radius: 1)"),
+            "objects[0].solid.Sphere.center: more than three numbers",
+        ),
+        (
+            "type",
+            scene_of("Sphere(center: (0, 0, 0), radius: \"1\")"),
+            "objects[0].solid.Sphere.radius: ",
+        ),
+        (
+            "nan",
+            scene_of("Sphere(center: (0, NaN, 0), radius: 1)"),
+            "objects[0].solid.Sphere.center: is not a finite number",
+        ),
+        ("variant", scene_of("Teapot()"), "Teapot"),
+        (
+            "cut-cutter",
+            scene_of(
+                "Difference([Sphere(center: (0, 0, 0), radius: 1),\nCylinder(base: (0, 0, 0), top: (0, 0, 0), radius: 1)])",
+            ),
+            ":3:32: objects[0].solid.Difference[1].Cylinder.top: ",
+        ),
+        (
+            "open",
+            scene_of(
+                "Difference([Sphere(center: (0, 0, 0), radius: 1), Polygon([(0, 0, 0), (1, 0, 0), (0, 1, 0)])])",
+            ),
+            "objects[0].solid.Difference[1].Polygon: an open surface",
+        ),
+        (
+            "flat",
+            scene_of("Triangle(a: (0, 0, 0), b: (1, 1, 1), c: (2, 2, 2))"),
+            "objects[0].solid.Triangle: the corners lie on one line",
+        ),
+        ("empty", scene_of("Union([])"), "objects[0].solid.Union: has 0 operands"),
+        (
+            "inside-out",
+            scene_of("Box(min: (0, 0, 0), max: (1, -1, 1))"),
+            "objects[0].solid.Box.max: ",
+        ),
+        (
+            "scale-zero",
+            scene_of(
+                "With(solid: Sphere(center: (0, 0, 0), radius: 1), place: [RotateX(10), Scale((1, 0, 1))])",
+            ),
+            "objects[0].solid.With.place[1].Scale: a factor must not be 0",
+        ),
+        (
+            "no-axis",
+            scene_of(
+                "With(solid: Sphere(center: (0, 0, 0), radius: 1), place: [Rotate(axis: (0, 0, 0), degrees: 1)])",
+            ),
+            "place[0].Rotate.axis: must not be zero",
+        ),
+        (
+            "far",
+            scene_of(
+                "With(solid: Sphere(center: (0, 0, 0), radius: 1), place: [Translate((1e20, 0, 0))])",
+            ),
+            "objects[0].solid.With.solid.Sphere: is placed beyond the range",
+        ),
+        (
+            "no-such",
+            scene_of("With(solid: Sphere(center: (0, 0, 0), radius: 1), material: \"rde\")"),
+            "objects[0].solid.With.material: there is no material \"rde\"",
+        ),
+        (
+            "bare",
+            format!("({CAMERA}, objects: [(solid: {BALL})])"),
+            "objects[0].solid: has no material",
+        ),
+        (
+            "texture",
+            format!("({CAMERA}, materials: {{\"m\": (color: \"wood\")}})"),
+            "materials.m.color: there is no texture \"wood\"",
+        ),
+        (
+            "twice",
+            format!("({CAMERA}, materials: {{\"m\": (), \"m\": ()}})"),
+            "the name \"m\" stands twice",
+        ),
+        (
+            "cell",
+            format!(
+                "({CAMERA}, textures: {{\"t\": Checker(colors: ((0, 0, 0), (1, 1, 1)), size: 0)}})"
+            ),
+            "textures.t.Checker.size: must be greater than 0",
+        ),
+        (
+            "weight",
+            format!("({CAMERA},\nmaterials: {{\"a.b\": (diffuse:\n -1)}})"),
+            ":3:2: materials.a.b.diffuse: must be at least 0",
+        ),
+        ("dark", format!("({CAMERA}, ambient: (0, -1, 0))"), "ambient: must be at least 0"),
+        (
+            "sky",
+            format!("({CAMERA}, background: (0, inf, 0))"),
+            "background: is not a finite number",
+        ),
+        (
+            "gradient",
+            format!("({CAMERA}, background: (bottom: (0, 0, 0), top: (0, 0, -1)))"),
+            "background.top: must be at least 0",
+        ),
+        (
+            "lamp",
+            format!(
+                "({CAMERA}, lights: [Spot(at: (0, 4, 0), toward: (0, -1, 0), inner: 20, outer: 10, color: (1, 1, 1))])"
+            ),
+            "lights[0].Spot.outer: ",
+        ),
+        (
+            "beam",
+            format!("({CAMERA}, lights: [Directional(toward: (0, 0, 0), color: (1, 1, 1))])"),
+            "lights[0].Directional.toward: must not be zero",
+        ),
+        (
+            "blind",
+            "(camera: (eye: (1, 2, 3), look_at: (1, 2, 3)))".to_owned(),
+            "camera.look_at: must not be where the eye is",
+        ),
+        (
+            "wide",
+            "(camera: (eye: (1, 2, 3), look_at: (0, 0, 0), fov: 180))".to_owned(),
+            ":1:52: camera.fov: must be between 0 and 180",
+        ),
+        (
+            "both",
+            "(camera: (eye: (1, 2, 3), look_at: (0, 0, 0), fov: 40, height: 2))".to_owned(),
+            "camera: has either fov or height",
+        ),
+        ("no-camera", "()".to_owned(), "camera"),
+        ("trailing", format!("({CAMERA}) more"), ":1:"),
+        ("nothing", String::new(), ":1:1: "),
+    ] {
+        let name = file(&format!("bad-{name}.ron"), &text);
+        let message = refusal(&[&name, "--size", "2x2"], 1);
+        assert!(message.starts_with(&name) && message.contains(part), "{part:?} in {message:?}");
+    }
+    let (name, text) =
+        ("bad.json", "{\"camera\": {\"eye\": [0, 0, 1], \"look_at\": [0, 0, 0],\n \"zoom\": 2}}");
+    let message = refusal(&[&file(name, text)], 1);
+    assert!(message.contains("bad.json:2:7: camera.zoom: unknown field"), "{message}");
+    let message = refusal(&[path("nosuch.ron").to_str().unwrap()], 1);
+    assert!(message.contains("nosuch.ron: "), "{message}");
+    let latin = path("latin.ron");
+    fs::write(&latin, b"(\xe9)").unwrap();
+    assert!(refusal(&[latin.to_str().unwrap()], 1).contains("is not UTF-8 text"));
+}
+
+#[test]
+fn deep_nesting_is_refused_not_overflown() {
+    for depth in [17, 60, 10_000] {
+        let ron = scene_of(&format!("{}{BALL}{}", "Complement(".repeat(depth), ")".repeat(depth)));
+        refusal(&[&file("deep.ron", &ron)], 1);
+        let ball = r#"{"Sphere": {"center": [0, 0, 0], "radius": 1}}"#;
+        let solid =
+            format!("{}{ball}{}", "{\"With\": {\"solid\": ".repeat(depth), "}}".repeat(depth));
+        let json = format!(
+            "{{\"camera\": {{\"eye\": [0, 0, 5], \"look_at\": [0, 0, 0]}}, \"objects\": [{{\"solid\": {solid}}}]}}"
+        );
+        refusal(&[&file("deep.json", &json)], 1);
+    }
+}
+
+#[test]
+fn nothing_partial_is_left_behind() {
+    let folder = path("left");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(folder.join("taken.png")).unwrap();
+    let good = file("left.ron", &scene_of(BALL));
+    let bad = file("left-bad.ron", &scene_of("Union([])"));
+    let target = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    refusal(&[&bad, "-o", &target("bad.png")], 1);
+    refusal(&[&good, "--size", "4x4", "-o", &target("taken.png")], 1);
+    refusal(&[&good, "-o", &target("nowhere/picture.png")], 1);
+    output(&[&good, "--size", "4x4", "-o", &target("good.png")]);
+    let mut names: Vec<_> =
+        fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["good.png", "taken.png"]);
+}
+
+#[test]
+fn gallery_lists_and_renders() {
+    let list = output(&["--list"]);
+    assert_eq!(list.lines().count(), GALLERY.len());
+    assert!(list.starts_with("showcase "), "{list}");
+    for (line, entry) in list.lines().zip(GALLERY) {
+        assert!(line.starts_with(entry.name) && line.ends_with(entry.description), "{line}");
+        let digest = output(&[entry.name, "--size", "8x6", "--digest"]);
+        let black = "e".repeat(64);
+        assert_ne!(&digest[..64], black);
+    }
+    assert!(output(&["--help"]).contains("--rows"));
+}
