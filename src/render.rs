@@ -147,11 +147,7 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
             return Err(SceneError::StackTooSmall { depth_max, limit: RAYS as u32 });
         }
         let limits = scene.limits();
-        if limits.boundaries as usize > BOUNDARIES {
-            let (needed, limit) = (limits.boundaries, BOUNDARIES as u32);
-            let at = Item::Object(0);
-            return Err(SceneError::SpanOverflow { at, needed, limit });
-        }
+        scene.check_room(BOUNDARIES)?;
         let mut brightest = [limits.brightest; RAYS];
         let mut most = limits.brightest;
         for slot in brightest.iter_mut().take(depth_max as usize + 1).rev() {
