@@ -17,8 +17,8 @@
 //! # What it means here
 //! - `angle` is the full vertical angle, here from edge to edge of the picture (the format says
 //!   from the middle of the first row to that of the last), and `resolution` only a proposal for
-//!   the size. `hither` and `yon` cut nothing. Where `up` points along the line of sight, the z axis is up
-//!   instead, or the y axis where the view is mostly along z.
+//!   the size. `hither` and `yon` cut nothing. Where `up` points along the line of sight, the z
+//!   axis is up instead, or the y axis where the view is mostly along z.
 //! - A light without a colour is white, of intensity 1/√n among n lights. No other light is there.
 //! - Ks is the strength of the highlights and the weight of the mirrored ray, T that of the
 //!   refracted one. The index of refraction says nothing where T is 0 and may be 0 there. A
@@ -28,7 +28,8 @@
 //!   surface is seen from both sides.
 //! - A polygon that is not flat enough for one plane, and every `pp`, becomes triangles, each an
 //!   object of its own. A `pp` with a normal of no length is drawn flat.
-//! - Polygons without an area, and cylinders and cones without a length, are left out and counted.
+//! - Polygons without an area, and cylinders and cones without a length, are left out and
+//!   counted; so are those whose area or length the number format cannot tell from 0.
 
 mod look;
 mod shapes;
