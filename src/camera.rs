@@ -55,7 +55,7 @@ impl<S: Scalar> Camera<S> {
             return Err(CameraFlaw::Empty("look_at"));
         }
         // `up` within rounding of the line of sight leaves the picture free to turn.
-        if forward.cross(self.up.normalize()).length() <= S::EPSILON * S::from_i32(16) {
+        if !(forward.cross(self.up.normalize()).length() > S::EPSILON * S::from_i32(16)) {
             return Err(CameraFlaw::Empty("up"));
         }
         match self.projection {
@@ -190,6 +190,8 @@ mod tests {
         assert_eq!(with(|c| c.look_at = c.eye), Err(CameraFlaw::Empty("look_at")));
         assert_eq!(with(|c| c.up = DVec3::Z * 2.0), Err(CameraFlaw::Empty("up")));
         assert_eq!(with(|c| c.up = DVec3::ZERO), Err(CameraFlaw::Empty("up")));
+        // A length whose reciprocal overflows once gave directions that are no numbers.
+        assert_eq!(with(|c| c.up = DVec3::Y * 1e-310), Ok(()));
         for fov in [0.0, -4.0, 180.0] {
             let camera = Camera { projection: Projection::Pinhole { fov }, ..good };
             assert_eq!(camera.check(), Err(CameraFlaw::Range("fov")));
