@@ -55,7 +55,7 @@ impl<S: Scalar> Camera<S> {
             return Err(CameraFlaw::Empty("look_at"));
         }
         // `up` within rounding of the line of sight leaves the picture free to turn.
-        if forward.cross(self.up.normalize()).length() <= S::EPSILON * S::from_i32(16) {
+        if !(forward.cross(self.up.normalize()).length() > S::EPSILON * S::from_i32(16)) {
             return Err(CameraFlaw::Empty("up"));
         }
         match self.projection {
@@ -131,6 +131,70 @@ impl<S: Scalar> Lens<S> {
             Ray { origin: self.eye + aside, dir: self.forward }
         } else {
             Ray { origin: self.eye, dir: (self.forward + aside).normalize() }
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    clippy::indexing_slicing,
+    reason = "a test may fail loudly, and compares with the platform's functions"
+)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    fn camera(projection: Projection<f64>) -> Camera<f64> {
+        let (eye, look_at) = (DVec3::new(1.0, 2.0, 3.0), DVec3::new(1.0, 2.0, -7.0));
+        Camera { eye, look_at, up: DVec3::Y, projection }
+    }
+
+    #[test]
+    fn pinhole_covers_the_angle_from_edge_to_edge() {
+        let lens = Lens::new(&camera(Projection::Pinhole { fov: 90.0 }), 200, 100);
+        let along = |x, y, offset| {
+            let dir = lens.ray(x, y, offset).dir;
+            assert!((dir.length_squared() - 1.0).abs() <= 1e-15);
+            dir * (-1.0 / dir.z)
+        };
+        let near = |a: DVec3, b: DVec3| assert!((a - b).max_abs() <= 1e-15, "{a} is not {b}");
+        near(along(0, 0, [0.0, 0.0]), DVec3::new(-2.0, 1.0, -1.0));
+        near(along(199, 99, [1.0, 1.0]), DVec3::new(2.0, -1.0, -1.0));
+        near(along(100, 50, [0.0, 0.0]), DVec3::new(0.0, 0.0, -1.0));
+        near(along(100, 49, [0.5, 0.5]), DVec3::new(0.01, 0.01, -1.0));
+    }
+
+    #[test]
+    fn orthographic_rays_are_parallel() {
+        let lens = Lens::new(&camera(Projection::Orthographic { height: 4.0 }), 30, 20);
+        let ray = lens.ray(0, 0, [0.0, 0.0]);
+        assert_eq!((ray.origin, ray.dir), (DVec3::new(-2.0, 4.0, 3.0), DVec3::NEG_Z));
+        let ray = lens.ray(29, 19, [1.0, 1.0]);
+        assert_eq!((ray.origin, ray.dir), (DVec3::new(4.0, 0.0, 3.0), DVec3::NEG_Z));
+    }
+
+    #[test]
+    fn useless_cameras_are_refused() {
+        let good = camera(Projection::Pinhole { fov: 40.0 });
+        assert_eq!(good.check(), Ok(()));
+        let with = |change: fn(&mut Camera<f64>)| {
+            let mut camera = good;
+            change(&mut camera);
+            camera.check()
+        };
+        assert_eq!(with(|c| c.eye.x = f64::NAN), Err(CameraFlaw::NotFinite("eye")));
+        assert_eq!(with(|c| c.eye.x = 1e300), Err(CameraFlaw::Range("eye")));
+        assert_eq!(with(|c| c.look_at = c.eye), Err(CameraFlaw::Empty("look_at")));
+        assert_eq!(with(|c| c.up = DVec3::Z * 2.0), Err(CameraFlaw::Empty("up")));
+        assert_eq!(with(|c| c.up = DVec3::ZERO), Err(CameraFlaw::Empty("up")));
+        // A length whose reciprocal overflows once gave directions that are no numbers.
+        assert_eq!(with(|c| c.up = DVec3::Y * 1e-310), Ok(()));
+        for fov in [0.0, -4.0, 180.0] {
+            let camera = Camera { projection: Projection::Pinhole { fov }, ..good };
+            assert_eq!(camera.check(), Err(CameraFlaw::Range("fov")));
         }
     }
 }

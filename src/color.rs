@@ -157,3 +157,62 @@ static SRGB_THRESHOLDS: [u32; 255] = [
     3760196976, 3795750674, 3831499703, 3867444367, 3903584973, 3939921822, 3976455220, 4013185468,
     4050112869, 4087237723, 4124560331, 4162080993, 4199800007, 4237717674, 4275834290,
 ];
+
+#[cfg(test)]
+#[allow(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    clippy::indexing_slicing,
+    reason = "a test may fail loudly, and compares with the platform's functions"
+)]
+mod tests {
+    use super::*;
+
+    /// The curve of IEC 61966-2-1, from linear light to a code in 0..=255, not rounded.
+    fn curve(light: f64) -> f64 {
+        let encoded = if light <= 0.0031308 {
+            12.92 * light
+        } else {
+            1.055 * libm::pow(light, 1.0 / 2.4) - 0.055
+        };
+        encoded * 255.0
+    }
+
+    #[test]
+    fn srgb_is_the_nearest_code_everywhere() {
+        for step in 0..=1_000_000_u32 {
+            let light = f64::from(step) / 1e6;
+            let code = f64::from(Transfer::Srgb.encode(light.to_unit_bits()));
+            assert!((code - curve(light)).abs() <= 0.5 + 1e-3, "{light} becomes {code}");
+        }
+    }
+
+    #[test]
+    fn each_threshold_is_where_the_code_changes() {
+        for (code, threshold) in (0..=254_u8).zip(SRGB_THRESHOLDS) {
+            assert_eq!(Transfer::Srgb.encode(threshold - 1), code);
+            assert_eq!(Transfer::Srgb.encode(threshold), code + 1);
+        }
+        assert_eq!(Transfer::Srgb.encode(u32::MAX), 255);
+    }
+
+    #[test]
+    fn linear_is_rounded_to_nearest() {
+        for code in 0..=255_u8 {
+            let light = f64::from(code) / 255.0;
+            assert_eq!(Transfer::Linear.encode(light.to_unit_bits()), code);
+            let below = (f64::from(code) - 0.500_001) / 255.0;
+            assert_eq!(Transfer::Linear.encode(below.to_unit_bits()), code.saturating_sub(1));
+        }
+    }
+
+    #[test]
+    fn light_out_of_range_is_clamped() {
+        let bytes = |v: f32| Rgb::new(v, v, v).to_rgb8(Transfer::Srgb);
+        assert_eq!(bytes(-3.0), [0; 3]);
+        assert_eq!(bytes(1.0), [255; 3]);
+        assert_eq!(bytes(1e30), [255; 3]);
+        assert_eq!(bytes(f32::INFINITY), [255; 3]);
+        assert_eq!(bytes(f32::NAN), [0; 3]);
+    }
+}

@@ -27,6 +27,8 @@ pub enum Item {
     Background,
     /// The ambient light.
     Ambient,
+    /// The depth control of a picture.
+    Depth,
 }
 
 impl fmt::Display for Item {
@@ -41,6 +43,7 @@ impl fmt::Display for Item {
             Self::Camera => f.write_str("camera"),
             Self::Background => f.write_str("background"),
             Self::Ambient => f.write_str("ambient"),
+            Self::Depth => f.write_str("depth"),
         }
     }
 }

@@ -99,6 +99,8 @@ impl<S: Scalar> Material<S> {
     pub(crate) fn reflectance(&self, cos_in: S, cos_out: S, ratio: S) -> S {
         match self.fresnel {
             Fresnel::Off => S::ZERO,
+            // Nothing to reflect at, which the approximation does not know.
+            _ if ratio == S::ONE => S::ZERO,
             Fresnel::Schlick => {
                 let zero = ((ratio - S::ONE) / (ratio + S::ONE)).squared();
                 // From the denser side the angle that matters is the one outside.
@@ -110,6 +112,45 @@ impl<S: Scalar> Material<S> {
                 let p = (ratio * cos_out - cos_in) / (ratio * cos_out + cos_in);
                 (s.squared() + p.squared()) * S::HALF
             }
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    clippy::indexing_slicing,
+    reason = "a test may fail loudly, and compares with the platform's functions"
+)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_and_broken_exponents_agree() {
+        let with = |shininess: f64| Material { shininess, ..Material::matte(Rgb::WHITE) };
+        for shininess in [0.0, 1.0, 2.0, 7.0, 32.0, 300.0, 65535.0, 65536.0, 100_000.0, 2.5, 31.75]
+        {
+            for cosine in [1e-3, 0.5, 0.9, 0.999, 0.99999, 1.0] {
+                let expected = libm::pow(cosine, shininess);
+                let found = with(shininess).lobe(cosine);
+                assert!((found - expected).abs() <= 1e-11, "{cosine}^{shininess}: {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn reflectance_is_zero_between_equal_media_and_one_at_grazing() {
+        for fresnel in [Fresnel::Schlick, Fresnel::Exact] {
+            let material = Material::<f64> { fresnel, ..Material::matte(Rgb::WHITE) };
+            assert_eq!(material.reflectance(0.4, 0.4, 1.0), 0.0);
+            assert!((material.reflectance(0.0, 0.745, 1.0 / 1.5) - 1.0).abs() <= 1e-15);
+            assert!((material.reflectance(1.0, 1.0, 1.0 / 1.5) - 0.04).abs() <= 1e-15);
+            // The same boundary from the other side.
+            let (cos_air, cos_glass) = (0.6, libm::sqrt(1.0 - 0.64 / 2.25));
+            let there = material.reflectance(cos_air, cos_glass, 1.0 / 1.5);
+            let back = material.reflectance(cos_glass, cos_air, 1.5);
+            assert!((there - back).abs() <= 1e-15);
         }
     }
 }

@@ -251,3 +251,84 @@ impl<S: Scalar> Local<S> {
         self.origin + self.dir * (t - self.shift)
     }
 }
+
+#[cfg(test)]
+#[allow(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    clippy::indexing_slicing,
+    reason = "a test may fail loudly, and compares with the platform's functions"
+)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    fn close(a: DVec3, b: DVec3) -> bool {
+        (a - b).max_abs() <= 1e-14
+    }
+
+    #[test]
+    fn rotations_are_right_handed_and_quarters_exact() {
+        let quarter = |axis| Affine::<f64>::rotate(axis, 90.0);
+        assert_eq!(quarter(Axis::X).point(DVec3::Y), DVec3::Z);
+        assert_eq!(quarter(Axis::Y).point(DVec3::Z), DVec3::X);
+        assert_eq!(quarter(Axis::Z).point(DVec3::X), DVec3::Y);
+        assert_eq!(Affine::<f64>::rotate(Axis::Z, -90.0).point(DVec3::Y), DVec3::X);
+        assert_eq!(Affine::<f64>::rotate(Axis::Z, 540.0).point(DVec3::X), -DVec3::X);
+        let third = Affine::<f64>::rotate(Axis::Y, 120.0);
+        assert!(close(
+            third.then(&third).then(&third).point(DVec3::new(1.0, 2.0, 3.0)),
+            DVec3::new(1.0, 2.0, 3.0)
+        ));
+    }
+
+    #[test]
+    fn maps_follow_one_another_in_order() {
+        let p = DVec3::new(1.0, 0.0, 0.0);
+        let scale = Affine::scale(DVec3::new(2.0, 3.0, 4.0));
+        let turn = Affine::rotate(Axis::Z, 90.0);
+        let go = Affine::translate(DVec3::new(10.0, 0.0, 0.0));
+        assert_eq!(scale.then(&turn).then(&go).point(p), DVec3::new(10.0, 2.0, 0.0));
+        assert_eq!(go.then(&turn).then(&scale).point(p), DVec3::new(0.0, 33.0, 0.0));
+    }
+
+    #[test]
+    fn placements_go_there_and_back() {
+        let map = Affine::scale(DVec3::new(2.0, 0.5, 3.0))
+            .then(&Affine::rotate(Axis::X, 33.0))
+            .then(&Affine::rotate(Axis::Y, 71.0))
+            .then(&Affine::translate(DVec3::new(5.0, -6.0, 7.0)));
+        let place = Placement::new(&map).unwrap();
+        assert!(!place.rigid);
+        let p = DVec3::new(0.3, -0.4, 0.5);
+        assert!(close(apply::<f64>(&place.to_local, map.point(p) - place.anchor), p));
+        // A normal stays at right angles to what it was at right angles to.
+        let (tangent, normal) = (DVec3::new(1.0, 2.0, 0.0), DVec3::new(2.0, -1.0, 4.0));
+        assert!(apply::<f64>(&map.rows, tangent).dot(place.normal(normal)).abs() <= 1e-13);
+    }
+
+    #[test]
+    fn similarities_are_told_from_other_maps() {
+        let turn = Affine::<f64>::rotate(Axis::X, 12.0).then(&Affine::rotate(Axis::Z, 50.0));
+        assert!(Placement::new(&turn).unwrap().rigid);
+        let factor = turn.then(&Affine::scale(DVec3::splat(3.0))).similarity().unwrap();
+        assert!((factor - 3.0).abs() <= 1e-14);
+        assert_eq!(Affine::<f64>::scale(DVec3::splat(0.25)).similarity(), Some(0.25));
+        assert_eq!(turn.then(&Affine::scale(DVec3::new(3.0, 3.0, 3.001))).similarity(), None);
+        let shear =
+            Affine::<f64> { rows: [DVec3::X + DVec3::Y, DVec3::Y, DVec3::Z], offset: DVec3::ZERO };
+        assert_eq!(shear.similarity(), None);
+    }
+
+    #[test]
+    fn flat_maps_have_no_inverse() {
+        assert_eq!(Affine::<f64>::scale(DVec3::new(1.0, 0.0, 1.0)).inverse_rows(), None);
+        assert_eq!(Affine::<f64>::scale(DVec3::new(1.0, f64::NAN, 1.0)).inverse_rows(), None);
+        let rows =
+            [DVec3::new(1.0, 2.0, 3.0), DVec3::new(4.0, 5.0, 6.0), DVec3::new(7.0, 8.0, 9.0)];
+        assert_eq!(Affine::<f64> { rows, offset: DVec3::ZERO }.inverse_rows(), None);
+        // Very unequal scales are not flat.
+        assert!(Affine::<f64>::scale(DVec3::new(1e6, 1.0, 1e-6)).inverse_rows().is_some());
+    }
+}

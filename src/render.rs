@@ -9,7 +9,7 @@ use core::ops::Range;
 
 use crate::camera::Lens;
 use crate::color::Rgb;
-use crate::error::SceneError;
+use crate::error::{Item, SceneError};
 use crate::ray::{Line, Ray, Start};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
@@ -33,6 +33,19 @@ impl<S: Scalar> Depth<S> {
     /// Static control alone.
     pub const fn fixed(depth_max: u16) -> Self {
         Self { depth_max, weight_min: S::ZERO, error_max: S::ZERO }
+    }
+
+    fn check(&self) -> Result<(), SceneError> {
+        let at = Item::Depth;
+        for (value, field) in [(self.weight_min, "weight_min"), (self.error_max, "error_max")] {
+            if !value.is_finite() {
+                return Err(SceneError::NotFinite { at, field });
+            }
+            if value < S::ZERO {
+                return Err(SceneError::OutOfRange { at, field, allowed: "at least 0" });
+            }
+        }
+        Ok(())
     }
 }
 
@@ -114,8 +127,9 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
     /// A picture of so many pixels that tells what happens.
     ///
     /// # Errors
-    /// If the picture has no pixels or more than 2²⁴ in a row or column, if the stack is
-    /// smaller than `depth_max + 1`, or if a solid may need more boundaries than there is room for.
+    /// If the picture has no pixels or more than 2²⁴ in a row or column, if depth control is
+    /// negative or not finite, if the stack is smaller than `depth_max + 1`, or if a solid may
+    /// need more boundaries than there is room for.
     pub fn with_tally(
         scene: &Scene<'a, S>,
         width: u32,
@@ -127,16 +141,13 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
         if !legal.contains(&width) || !legal.contains(&height) {
             return Err(SceneError::PictureSize { width, height });
         }
+        depth.check()?;
         let depth_max = u32::from(depth.depth_max);
         if depth_max as usize >= RAYS {
             return Err(SceneError::StackTooSmall { depth_max, limit: RAYS as u32 });
         }
         let limits = scene.limits();
-        if limits.boundaries as usize > BOUNDARIES {
-            let (needed, limit) = (limits.boundaries, BOUNDARIES as u32);
-            let at = crate::error::Item::Object(0);
-            return Err(SceneError::SpanOverflow { at, needed, limit });
-        }
+        scene.check_room(BOUNDARIES)?;
         let mut brightest = [limits.brightest; RAYS];
         let mut most = limits.brightest;
         for slot in brightest.iter_mut().take(depth_max as usize + 1).rev() {

@@ -259,8 +259,7 @@ pub trait Vector:
         if scale == Self::Scalar::ZERO {
             return scale;
         }
-        let inverse = Self::Scalar::ONE / scale;
-        (self * inverse).length_squared().sqrt() * scale
+        self.scaled_down(scale).length_squared().sqrt() * scale
     }
 
     /// The vector of length 1 in the same direction; zero for the zero vector.
@@ -270,8 +269,19 @@ pub trait Vector:
         if scale == Self::Scalar::ZERO {
             return self;
         }
-        let scaled = self * (Self::Scalar::ONE / scale);
+        let scaled = self.scaled_down(scale);
         scaled * (Self::Scalar::ONE / scaled.length_squared().sqrt())
+    }
+
+    /// The vector divided by a positive number.
+    #[inline]
+    fn scaled_down(self, by: Self::Scalar) -> Self {
+        if by < Self::Scalar::TINY {
+            // The reciprocal would overflow.
+            self.map(|v| v / by)
+        } else {
+            self * (Self::Scalar::ONE / by)
+        }
     }
 
     /// Every coordinate is finite.

@@ -47,12 +47,18 @@ pub(crate) struct Branches<S: Scalar> {
 impl<'a, S: Scalar> Surface<'a, S> {
     /// The surface at a hit; `None` only for a hit that is not of this scene.
     pub(crate) fn new(scene: &Scene<'a, S>, line: &Line<S>, hit: &Hit<S>) -> Option<Self> {
-        let Boundary { t, node, face, passage, .. } = hit.boundary;
+        let Boundary { t, node, face, passage, inverted } = hit.boundary;
         let geometry = scene.geometry();
         let leaf = geometry.leaf(node)?;
         let material = scene.material(leaf.material)?;
         let contact = geometry.contact(line, leaf, End { t, face });
-        let from_within = contact.normal.dot(line.dir) > S::ZERO;
+        // The side is known from the boundary; only an open surface asks the normal, which
+        // rounding may turn over at a grazing angle.
+        let from_within = match passage {
+            Passage::Touch => contact.normal.dot(line.dir) > S::ZERO,
+            Passage::Enter => inverted,
+            Passage::Leave => !inverted,
+        };
         let normal = if from_within { -contact.normal } else { contact.normal };
         let textures = scene.textures();
         let uv = if textures.wants_uv(material.color) {

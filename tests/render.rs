@@ -218,6 +218,25 @@ fn placements_apply_from_the_inside_out() {
 }
 
 #[test]
+fn nff_is_read_with_its_own_size() {
+    let text = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 40\nhither 1\nresolution 12 9\n\
+                b 0.1 0.2 0.3\nl 3 4 5\nf 1 0 0 0.7 0.3 20 0 0\ns 0 0 0 1\n";
+    let ppm = path("ball.ppm");
+    output(&[&file("ball.nff", text), "-o", ppm.to_str().unwrap()]);
+    assert!(fs::read(&ppm).unwrap().starts_with(b"P6\n12 9\n"));
+    output(&[&file("ball.nff", text), "-o", ppm.to_str().unwrap(), "--size", "5x4"]);
+    assert!(fs::read(&ppm).unwrap().starts_with(b"P6\n5 4\n"));
+
+    let degenerate = format!("{text}c 0 0 0 1 0 0 0 1\n");
+    let (code, _, err) = call(&[&file("note.nff", &degenerate), "--digest"]);
+    assert_eq!((code, err.lines().count()), (0, 1), "{err}");
+    assert!(err.starts_with("note: ") && err.contains("note.nff: 1 objects"), "{err}");
+
+    let message = refusal(&[&file("bad.nff", &text.replace("s 0", "s x"))], 1);
+    assert!(message.contains("bad.nff:11: "), "{message}");
+}
+
+#[test]
 fn textures_stand_in_any_order() {
     let scene = |textures: &str| {
         format!(

@@ -30,13 +30,15 @@ pub(super) fn check<S: Scalar>(parts: &Parts<'_, S>) -> Result<Limits<S>, SceneE
     for (index, light) in (0..).zip(parts.lights) {
         check_light(Item::Light(index), light)?;
     }
-    let (mut boundaries, mut crossings) = (0, 0_u32);
+    let (mut boundaries, mut widest, mut crossings) = (0, 0, 0_u32);
     for (index, object) in (0..).zip(parts.objects) {
         let needs = check_object(parts, index, object)?;
-        boundaries = boundaries.max(needs.boundaries);
+        if needs.boundaries > boundaries {
+            (boundaries, widest) = (needs.boundaries, index);
+        }
         crossings = crossings.saturating_add(needs.crossings);
     }
-    Ok(reach(parts, boundaries, crossings))
+    Ok(Limits { boundaries, widest, crossings, ..reach(parts) })
 }
 
 /// What one object needs.
@@ -395,7 +397,7 @@ fn check_light<S: Scalar>(at: Item, light: &Light<S>) -> Result<(), SceneError> 
 }
 
 /// The greatest amounts of light, from the tables alone.
-fn reach<S: Scalar>(parts: &Parts<'_, S>, boundaries: u32, crossings: u32) -> Limits<S> {
+fn reach<S: Scalar>(parts: &Parts<'_, S>) -> Limits<S> {
     let brightest_paint = |paint: Paint<S>| match paint {
         Paint::Solid(color) => color.max_part(),
         Paint::Texture(last) => {
@@ -424,8 +426,9 @@ fn reach<S: Scalar>(parts: &Parts<'_, S>, boundaries: u32, crossings: u32) -> Li
     // Sums are rounded; a little more is certainly enough.
     let margin = S::ONE + S::EPSILON * S::from_i32(1024);
     Limits {
-        boundaries,
-        crossings,
+        boundaries: 0,
+        widest: 0,
+        crossings: 0,
         transparent,
         brightest: local.max(background) * margin,
         background,

@@ -11,7 +11,7 @@ use crate::background::Background;
 use crate::bounds::Bounds;
 use crate::camera::Camera;
 use crate::color::Rgb;
-use crate::error::SceneError;
+use crate::error::{Item, SceneError};
 use crate::light::Light;
 use crate::material::Material;
 use crate::place::Placement;
@@ -71,6 +71,8 @@ pub struct Parts<'a, S: Scalar> {
 pub struct Limits<S> {
     /// The boundaries that the evaluation of one solid may hold at a time.
     pub boundaries: u32,
+    /// The object that needs so many.
+    pub widest: u32,
     /// The surfaces that a ray can go through at most, all objects together.
     pub crossings: u32,
     /// Some material lets light through.
@@ -112,20 +114,33 @@ impl<'a, S: Scalar> Scene<'a, S> {
     }
 
     /// The boundaries of one object along a ray, for t > 0, and whether its origin is inside.
-    /// The buffer needs the room that [`limits`](Self::limits) tells; `None` for an unknown
-    /// object or too small a buffer.
+    /// The direction need not have unit length; t counts in lengths of it.
+    ///
+    /// # Errors
+    /// If there is no such object, or if the buffer has less room than [`limits`](Self::limits) tells.
     pub fn spans<'b>(
         &self,
         object: u32,
         ray: Ray<S>,
         buffer: &'b mut [Boundary<S>],
-    ) -> Option<Spans<'b, S>> {
-        let object = self.parts.objects.get(object as usize)?;
-        if buffer.len() < self.limits.boundaries as usize {
-            return None;
-        }
+    ) -> Result<Spans<'b, S>, SceneError> {
+        let at = Item::Object(object);
+        let len = self.parts.objects.len() as u32;
+        let unknown = SceneError::IndexOutOfRange { at, table: "objects", index: object, len };
+        let object = self.parts.objects.get(object as usize).ok_or(unknown)?;
+        self.check_room(buffer.len())?;
         let line = Line::new(ray, None);
-        Some(self.geometry().evaluate(object.first, object.count, &line, buffer, || ()))
+        Ok(self.geometry().evaluate(object.first, object.count, &line, buffer, || ()))
+    }
+
+    /// There is room for the boundaries of any solid of the scene.
+    pub(crate) fn check_room(&self, room: usize) -> Result<(), SceneError> {
+        let needed = self.limits.boundaries;
+        if needed as usize <= room {
+            return Ok(());
+        }
+        let at = Item::Object(self.limits.widest);
+        Err(SceneError::SpanOverflow { at, needed, limit: room as u32 })
     }
 
     #[inline]

@@ -2,6 +2,7 @@
 
 use super::{Object, Scene};
 use crate::color::Rgb;
+use crate::error::SceneError;
 use crate::material::Material;
 use crate::ray::{Line, Ray, Start};
 use crate::scalar::{Scalar, Vector};
@@ -64,10 +65,17 @@ enum Among {
 }
 
 impl<'a, S: Scalar> Scene<'a, S> {
-    /// The nearest boundary along a ray from free space. The buffer needs the room that
-    /// [`limits`](Self::limits) tells.
-    pub fn nearest(&self, ray: Ray<S>, buffer: &mut [Boundary<S>]) -> Option<Hit<S>> {
-        self.search(&Line::new(ray, None), S::FAR, buffer, &mut ()).hit
+    /// The nearest boundary along a ray from free space, if it meets any.
+    ///
+    /// # Errors
+    /// If the buffer has less room than [`limits`](Self::limits) tells.
+    pub fn nearest(
+        &self,
+        ray: Ray<S>,
+        buffer: &mut [Boundary<S>],
+    ) -> Result<Option<Hit<S>>, SceneError> {
+        self.check_room(buffer.len())?;
+        Ok(self.search(&Line::new(ray, None), S::FAR, buffer, &mut ()).hit)
     }
 
     /// The nearest boundary in 0 < t < `t_max`, and the media at the start.

@@ -47,3 +47,63 @@ impl<S: Scalar> Checker<S> {
         if (x ^ y ^ z) & 1 == 0 { even } else { odd }
     }
 }
+
+#[cfg(test)]
+#[allow(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    clippy::indexing_slicing,
+    reason = "a test may fail loudly, and compares with the platform's functions"
+)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::color::Rgb;
+    use crate::place::Affine;
+    use crate::scalar::Axis;
+
+    fn checker(mapping: Mapping, placement: Option<u16>) -> Checker<f64> {
+        let paints = [Paint::Solid(Rgb::WHITE), Paint::Solid(Rgb::BLACK)];
+        Checker { paints, size: DVec3::new(0.5, 1.0, 2.0), mapping, placement }
+    }
+
+    #[test]
+    fn cells_alternate_along_every_axis() {
+        let checker = checker(Mapping::Solid, None);
+        for x in -6..6_i32 {
+            for y in -6..6_i32 {
+                for z in -6..6_i32 {
+                    // The middles of the cells.
+                    let cell = DVec3::new(x.into(), y.into(), z.into()) + 0.5;
+                    let position = cell * checker.size;
+                    let even = (x + y + z).rem_euclid(2) == 0;
+                    let expected = checker.paints[usize::from(!even)];
+                    assert_eq!(checker.at(&Spot { position, uv: [0.0; 2] }, &[]), expected);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn surface_coordinates_and_placements_are_followed() {
+        let spot = Spot { position: DVec3::new(0.7, 0.2, 0.2), uv: [0.2, 0.3] };
+        let [even, odd] = checker(Mapping::Uv, None).paints;
+        assert_eq!(checker(Mapping::Uv, None).at(&spot, &[]), even);
+        assert_eq!(checker(Mapping::Uv, None).at(&Spot { uv: [0.6, 0.3], ..spot }, &[]), odd);
+        assert_eq!(checker(Mapping::Solid, None).at(&spot, &[]), odd);
+        // Turned by a right angle about z, x becomes y: one cell of 1 holds 0.7.
+        let turned = Placement::new(&Affine::rotate(Axis::Z, 90.0)).unwrap();
+        let found = checker(Mapping::Solid, Some(0)).at(&spot, &[turned]);
+        assert_eq!(found, odd, "x of the texture is y of the scene, y is −x");
+    }
+
+    #[test]
+    fn any_number_has_a_cell() {
+        let checker = checker(Mapping::Solid, None);
+        for x in [f64::MAX, -f64::MAX, f64::INFINITY, f64::NAN, -0.0, 1e-300] {
+            let found = checker.at(&Spot { position: DVec3::splat(x), uv: [x; 2] }, &[]);
+            assert!(checker.paints.contains(&found));
+        }
+    }
+}

@@ -15,6 +15,7 @@ mod sphereflake;
 
 pub mod document;
 pub mod gallery;
+pub mod nff;
 pub mod output;
 pub mod raster;
 pub mod read;
@@ -24,5 +25,6 @@ pub mod written;
 pub use assemble::Assembly;
 pub use flaw::Flaw;
 pub use heap::{Growable, Heap};
+pub use nff::{NffError, NffScene};
 pub use probe_command::probe_command;
 pub use render_command::render_command;

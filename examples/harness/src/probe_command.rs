@@ -104,7 +104,7 @@ fn answer<S: Scalar>(line: &[u8]) -> Result<String, String> {
     let vacant =
         Boundary { t: S::ZERO, node: 0, face: 0, passage: Passage::Touch, inverted: false };
     let mut buffer = vec![vacant; scene.limits().boundaries as usize];
-    let spans = scene.spans(0, ray, &mut buffer).ok_or("the solid cannot be evaluated")?;
+    let spans = scene.spans(0, ray, &mut buffer).map_err(|error| error.to_string())?;
     listed(&spans, scale)
 }
 

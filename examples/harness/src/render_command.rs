@@ -23,7 +23,7 @@ const PIXELS_MAX: u64 = 1 << 26;
 #[derive(Clone, Debug, Parser)]
 #[command(name = "render", disable_version_flag = true)]
 struct Options {
-    /// A scene of the gallery, or a .ron or .json file
+    /// A scene of the gallery, or a .ron, .json or .nff file
     #[arg(value_name = "SCENE", default_value = "showcase")]
     scene: String,
     /// Shows the gallery, one name and a line of description each
@@ -73,16 +73,20 @@ struct Options {
 
 /// Runs the command with its arguments, the first of them the program's name, and gives its
 /// exit code: 0, 1 for a bad scene or file, 2 for bad usage. Whatever goes wrong is told in
-/// one line on `err`.
+/// one line on `err`; so is what a file holds but the scene does not.
 pub fn render_command(
     args: impl IntoIterator<Item = OsString>,
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> u8 {
-    report(run(args, out), err)
+    report(run(args, out, err), err)
 }
 
-fn run(args: impl IntoIterator<Item = OsString>, out: &mut impl Write) -> Result<(), Failure> {
+fn run(
+    args: impl IntoIterator<Item = OsString>,
+    out: &mut impl Write,
+    err: &mut impl Write,
+) -> Result<(), Failure> {
     let Some(options) = parse::<Options>(args, out)? else {
         return Ok(());
     };
@@ -95,8 +99,8 @@ fn run(args: impl IntoIterator<Item = OsString>, out: &mut impl Write) -> Result
     }
     options.check()?;
     match options.scalar.as_str() {
-        "f32" => options.picture::<f32>(out),
-        "f64" => options.picture::<f64>(out),
+        "f32" => options.picture::<f32>(out, err),
+        "f64" => options.picture::<f64>(out, err),
         "q16" | "q32" => {
             Err(Failure::usage(format!("--scalar {}: is not supported", options.scalar)))
         }
@@ -128,7 +132,11 @@ impl Options {
         Ok(())
     }
 
-    fn picture<S: Scalar>(&self, out: &mut impl Write) -> Result<(), Failure> {
+    fn picture<S: Scalar>(
+        &self,
+        out: &mut impl Write,
+        err: &mut impl Write,
+    ) -> Result<(), Failure> {
         let source = Source::find(&self.scene).map_err(Failure::usage)?;
         let target = self.target(&source)?;
         let loaded = source.load::<S>().map_err(Failure::scene)?;
@@ -136,6 +144,9 @@ impl Options {
         let name = source.name();
         let scene = loaded.scene().map_err(Failure::scene)?;
 
+        for note in &loaded.notes {
+            writeln!(err, "note: {note}")?;
+        }
         let bar = progress(order.rows.len());
         let begun = Instant::now();
         let rendered = render(&scene, &order, || bar.inc(1));

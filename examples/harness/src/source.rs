@@ -8,6 +8,7 @@ use crate::assemble::Assembly;
 use crate::flaw::Flaw;
 use crate::gallery::{self, Entry};
 use crate::locate::locate;
+use crate::nff::{self, NffError, NffScene};
 use crate::read::{Syntax, Unreadable, read};
 
 /// A scene that was asked for by name.
@@ -24,6 +25,8 @@ pub enum Source {
 pub enum Kind {
     /// This project's own structure.
     Document(Syntax),
+    /// The Neutral File Format.
+    Nff,
 }
 
 /// A scene, ready to be checked and rendered.
@@ -31,6 +34,8 @@ pub enum Kind {
 pub struct Loaded<S: Scalar> {
     /// The size of the picture, where the scene tells.
     pub size: Option<(u32, u32)>,
+    /// What was not taken as it stood, in one line each.
+    pub notes: Vec<String>,
     assembly: Assembly<S>,
     told: Told,
 }
@@ -73,10 +78,11 @@ impl Source {
         let kind = match path.extension().and_then(|ending| ending.to_str()) {
             Some("ron") => Kind::Document(Syntax::Ron),
             Some("json") => Kind::Document(Syntax::Json),
+            Some("nff") => Kind::Nff,
             _ => {
                 let unknown = || {
                     format!(
-                        "{name}: is neither in the gallery (see --list) nor a .ron or .json file"
+                        "{name}: is neither in the gallery (see --list) nor a .ron, .json or .nff file"
                     )
                 };
                 return gallery::find(name).map(Self::Gallery).ok_or_else(unknown);
@@ -116,6 +122,7 @@ impl Source {
                 let text = entry.text().map(|text| (text.to_owned(), Syntax::Ron));
                 (entry.document().map_err(unread)?, text)
             }
+            Self::File(path, Kind::Nff) => return load_nff(name, &text_of(path)?),
             Self::File(path, Kind::Document(syntax)) => {
                 let text = text_of(path)?;
                 (read(&text, *syntax).map_err(unread)?, Some((text, *syntax)))
@@ -123,8 +130,21 @@ impl Source {
         };
         let told = Told { name, text };
         let assembly = Assembly::of_document(&document).map_err(|flaw| told.flaw(&flaw))?;
-        Ok(Loaded { size: None, assembly, told })
+        Ok(Loaded { size: None, notes: Vec::new(), assembly, told })
     }
+}
+
+fn load_nff<S: Scalar>(name: String, text: &str) -> Result<Loaded<S>, String> {
+    let NffScene { builder, size, skipped, flattened } = nff::load(text)
+        .map_err(|NffError { line, message }| format!("{name}:{line}: {message}"))?;
+    let note = |count: usize, what: &str| (count > 0).then(|| format!("{name}: {count} {what}"));
+    let notes = [
+        note(skipped, "objects without any extent are left out"),
+        note(flattened, "polygons have a normal without direction and look flat"),
+    ];
+    let notes = notes.into_iter().flatten().collect();
+    let assembly = Assembly::of_builder(builder);
+    Ok(Loaded { size, notes, assembly, told: Told { name, text: None } })
 }
 
 fn text_of(path: &Path) -> Result<String, String> {
