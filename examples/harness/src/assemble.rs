@@ -90,7 +90,7 @@ impl<S: Scalar> Assembly<S> {
                 Light::Spot { at, cone, color, attenuation: weakening(attenuation) }
             }
         };
-        self.builder.light(light).map_err(|error| Origins::at(&error, &path))?;
+        self.builder.light(light).map_err(|error| Origins::at(&error, path))?;
         self.origins.lights.push(path.to_string());
         Ok(())
     }
@@ -122,7 +122,7 @@ impl<S: Scalar> Assembly<S> {
                 placement: self.texture_placement(*mapping, place, &path.field("place"))?,
             };
             let added = self.builder.texture(Texture::Checker(checker));
-            let index = added.map_err(|error| Origins::at(&error, &path))?;
+            let index = added.map_err(|error| Origins::at(&error, path))?;
             indices.insert(name.as_str(), index);
             self.origins.textures.push(path.to_string());
         }
@@ -177,7 +177,7 @@ impl<S: Scalar> Assembly<S> {
                 absorb: rgb(written.absorb),
             };
             let added = self.builder.material(material);
-            let index = added.map_err(|error| Origins::at(&error, &path))?;
+            let index = added.map_err(|error| Origins::at(&error, path))?;
             indices.insert(name.as_str(), index);
             self.origins.materials.push(path.to_string());
         }
@@ -297,7 +297,7 @@ fn unit<S: Scalar>(written: Triple, path: &Path<'_>) -> Result<S::Vec3, Flaw> {
     if direction == <f64 as Scalar>::Vec3::ZERO {
         return Err(Flaw::new(path, "must not be zero"));
     }
-    Ok(vector::<S>(Triple(Vector::to_array(direction.normalize()))))
+    Ok(vector::<S>(Triple(Vector::to_array(Vector::normalize(direction)))))
 }
 
 fn cosine<S: Scalar>(degrees: f64, path: &Path<'_>) -> Result<S, Flaw> {

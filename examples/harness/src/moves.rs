@@ -77,7 +77,9 @@ fn turn(axis: Axis, degrees: f64, path: &Path<'_>) -> Result<Affine<f64>, Flaw> 
 /// The rotation about a unit vector, by the formula of O. Rodrigues (1840).
 fn turn_about(axis: DVec3, degrees: f64) -> Affine<f64> {
     let (sin, cos) = sin_cos_degrees(degrees);
-    let turned = |v: DVec3| v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (1.0 - cos));
+    let turned = |v: DVec3| {
+        v * cos + Vector::cross(axis, v) * sin + axis * (Vector::dot(axis, v) * (1.0 - cos))
+    };
     let columns = [DVec3::X, DVec3::Y, DVec3::Z].map(turned);
     let row = |axis: Axis| DVec3::from_array(columns.map(|column| Vector::get(column, axis)));
     Affine { rows: Axis::ALL.map(row), offset: DVec3::ZERO }
@@ -104,7 +106,7 @@ mod tests {
                 let any = whole(&[Move::Rotate { axis: Triple(axis), degrees }]);
                 let own = whole(&[turn(degrees)]);
                 for (a, b) in any.rows.iter().zip(own.rows) {
-                    assert!((*a - b).length() < 1e-15, "{degrees} about {axis:?}");
+                    assert!(Vector::length(*a - b) < 1e-15, "{degrees} about {axis:?}");
                 }
             }
         }
@@ -114,7 +116,7 @@ mod tests {
     fn a_rotation_about_the_diagonal_turns_the_axes_round() {
         let turn = Move::Rotate { axis: Triple([1.0, 1.0, 1.0]), degrees: 120.0 };
         let turned = whole(&[turn]).point(DVec3::X);
-        assert!((turned - DVec3::Y).length() < 1e-15, "{turned}");
+        assert!(Vector::length(turned - DVec3::Y) < 1e-15, "{turned}");
     }
 
     #[test]

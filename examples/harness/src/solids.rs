@@ -165,7 +165,7 @@ impl<'a, S: Scalar> Planter<'a, S> {
             _ => return Err(Flaw::new(path, "is not a shape")),
         };
         let path = path.field(name);
-        let material = around.material.ok_or_else(|| Flaw::new(&path, "has no material"))?;
+        let material = around.material.ok_or_else(|| Flaw::new(path, "has no material"))?;
         self.check_reach(&form, around.to_world, &path)?;
         self.nodes.push(path.to_string());
         let added = self.builder.leaf(form, &converted(around.to_world), material);

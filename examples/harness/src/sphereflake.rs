@@ -123,9 +123,9 @@ mod tests {
         let spheres = spheres(1);
         let (first, small) = (spheres[0], &spheres[1..]);
         for (index, &(center, radius)) in small.iter().enumerate() {
-            assert!((center.distance(first.0) - (first.1 + radius)).abs() < 1e-12);
+            assert!((Vector::length(center - first.0) - (first.1 + radius)).abs() < 1e-12);
             for &(other, _) in &small[..index] {
-                assert!(center.distance(other) > 2.0 * radius - 1e-12);
+                assert!(Vector::length(center - other) > 2.0 * radius - 1e-12);
             }
         }
     }
