@@ -131,11 +131,34 @@ macro_rules! float {
                     // Rounding is monotone, so the sign is that of the exact difference.
                     return p - q;
                 }
-                let ((a_high, a_low), (b_high, b_low)) = ($float::split(a), $float::split(b));
-                let ((c_high, c_low), (d_high, d_low)) = ($float::split(c), $float::split(d));
-                let p_error = $float::product_error(p, a_high, a_low, b_high, b_low);
-                let q_error = $float::product_error(q, c_high, c_low, d_high, d_low);
-                p_error - q_error
+                $float::two_product(a, b).1 - $float::two_product(c, d).1
+            }
+
+            #[inline]
+            fn dot_wide(a: $vec, b: $vec) -> Self {
+                let (x, x_error) = $float::two_product(a.x, b.x);
+                let (y, y_error) = $float::two_product(a.y, b.y);
+                let (z, z_error) = $float::two_product(a.z, b.z);
+                let (xy, xy_error) = $float::two_sum(x, y);
+                let (sum, sum_error) = $float::two_sum(xy, z);
+                sum + ((x_error + y_error + z_error) + (xy_error + sum_error))
+            }
+
+            fn precedes([a, o, d]: [Self; 3], [b, p, e]: [Self; 3]) -> bool {
+                // The sign of (a − o)·e − (b − p)·d, turned round where d·e < 0.
+                let ((f, f_low), (g, g_low)) = ($float::two_sum(a, -o), $float::two_sum(b, -p));
+                let products = [(f, e), (f_low, e), (-g, d), (-g_low, d)];
+                let mut sum = [0.0; 8];
+                let mut terms = 0;
+                for (x, y) in products {
+                    let (product, error) = $float::two_product(x, y);
+                    for term in [product, error] {
+                        $float::grow(&mut sum, terms, term);
+                        terms += 1;
+                    }
+                }
+                let sign = sum.into_iter().rev().find(|&part| part != 0.0).unwrap_or(0.0);
+                if (d < 0.0) == (e < 0.0) { sign < 0.0 } else { sign > 0.0 }
             }
 
             #[inline]
@@ -156,14 +179,10 @@ macro_rules! float {
                 let ([hx, hy, hz], [lx, ly, lz]) = (aim.high, aim.low);
                 let along = |o: $float, c: $float, d: $float, high: $float, low: $float| {
                     // o − c and k·d, each as an unevaluated sum of two numbers.
-                    let f = o - c;
-                    let f_part = f - o;
-                    let f_error = (o - (f - f_part)) - (c + f_part);
+                    let (f, f_error) = $float::two_sum(o, -c);
                     let p = k * d;
                     let p_error = $float::product_error(p, k_high, k_low, high, low);
-                    let sum = f + p;
-                    let p_part = sum - f;
-                    let sum_error = (f - (sum - p_part)) + (p - p_part);
+                    let (sum, sum_error) = $float::two_sum(f, p);
                     sum + (sum_error + (f_error + p_error))
                 };
                 <$vec>::new(
@@ -185,15 +204,48 @@ macro_rules! float {
             fn product_error(p: Self, ah: Self, al: Self, bh: Self, bl: Self) -> Self {
                 ((ah * bh - p) + ah * bl + al * bh) + al * bl
             }
+            #[inline]
+            fn two_product(a: Self, b: Self) -> (Self, Self) {
+                let (p, (ah, al), (bh, bl)) = (a * b, a.split(), b.split());
+                (p, Self::product_error(p, ah, al, bh, bl))
+            }
+            #[inline]
+            fn two_sum(a: Self, b: Self) -> (Self, Self) {
+                let sum = a + b;
+                let part = sum - a;
+                (sum, (a - (sum - part)) + (b - part))
+            }
+            fn grow(sum: &mut [Self; 8], terms: usize, term: Self) {
+                let mut carry = term;
+                for part in sum.iter_mut().take(terms) {
+                    (carry, *part) = Self::two_sum(carry, *part);
+                }
+                if let Some(last) = sum.get_mut(terms) {
+                    *last = carry;
+                }
+            }
         }
     };
 }
 
-/// The halves of a number, and what a product rounded away (T. J. Dekker, "A floating-point
-/// technique for extending the available precision", 1971).
+/// Sums and products as two numbers: the rounded result and what was rounded away, exact
+/// barring overflow and underflow.
+///
+/// Source: T. J. Dekker, "A floating-point technique for extending the available precision"
+/// (1971); D. E. Knuth, *The Art of Computer Programming*, volume 2, section 4.2.2.
 trait ErrorFree: Sized {
+    /// Two halves that multiply exactly.
     fn split(self) -> (Self, Self);
+    /// What a product `p` of two numbers, given by their halves, rounded away.
     fn product_error(p: Self, ah: Self, al: Self, bh: Self, bl: Self) -> Self;
+    /// `a·b`.
+    fn two_product(a: Self, b: Self) -> (Self, Self);
+    /// `a + b`.
+    fn two_sum(a: Self, b: Self) -> (Self, Self);
+    /// Adds a term to an exact sum of so many parts in ascending order of magnitude.
+    ///
+    /// Source: J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic" (1997), section 2.4.
+    fn grow(sum: &mut [Self; 8], terms: usize, term: Self);
 }
 
 float!(

@@ -97,6 +97,13 @@ pub trait Scalar:
 
     /// `a·b − c·d` with the exact sign: 0 only where the products are equal.
     fn det2(a: Self, b: Self, c: Self, d: Self) -> Self;
+    /// `a · b` as if computed in twice the precision and rounded last.
+    ///
+    /// Source: T. Ogita, S. M. Rump and S. Oishi, "Accurate Sum and Dot Product" (2005).
+    fn dot_wide(a: Self::Vec3, b: Self::Vec3) -> Self;
+    /// `(a − o)/d < (b − p)/e` for `[a, o, d]` and `[b, p, e]`, decided exactly; `d` and `e`
+    /// are not 0.
+    fn precedes(first: [Self; 3], second: [Self; 3]) -> bool;
     /// What [`recentre`](Self::recentre) caches of a direction.
     fn aim(dir: Self::Vec3) -> Self::Aim;
     /// `origin − centre + k·dir`, as if computed exactly and rounded last: the point of the

@@ -1,11 +1,12 @@
 //! The cone and the frustum with their caps.
 
-use super::cylinder::{BASE, SIDE, TOP, caps, local, snap_tube, tube_bounds, tube_uv};
-use super::sphere::from_start;
+use super::cylinder::{
+    BASE, SIDE, TOP, caps, emit_common, is_axial, snap_tube, tube_bounds, tube_exit, tube_uv,
+};
 use super::{Flaw, Primitive, Sight, check_centre, check_length};
 use crate::bounds::Bounds;
 use crate::place::{Local, Placement};
-use crate::scalar::{Scalar, Vector};
+use crate::scalar::{Axis, Scalar, Vector};
 use crate::span::Span;
 
 /// A frustum about the local y axis, closed by caps; a cone where one radius is 0.
@@ -22,17 +23,43 @@ pub struct Cone<S: Scalar> {
     pub top_radius: S,
 }
 
+/// The line that sweeps out the side, as `rise·ρ = radius + growth·y` in the distance ρ from
+/// the axis and the height y above `pivot`; the greater of |rise| and |growth| is 1, so that
+/// neither flat nor slender cones overflow.
+#[derive(Clone, Copy)]
+struct Slant<S> {
+    rise: S,
+    growth: S,
+    radius: S,
+    pivot: S,
+}
+
 impl<S: Scalar> Cone<S> {
-    /// How much the radius grows per unit of height.
     #[inline]
-    fn slope(&self) -> S {
-        (self.top_radius - self.base_radius) / (self.half_height * S::TWO)
+    fn slant(&self) -> Slant<S> {
+        let (growth, rise) = (self.top_radius - self.base_radius, self.half_height * S::TWO);
+        let (rise, growth) = if growth.abs() <= rise {
+            (S::ONE, growth / rise)
+        } else if growth > S::ZERO {
+            (rise / growth, S::ONE)
+        } else {
+            (rise / -growth, -S::ONE)
+        };
+        // About the tip of a cone nothing cancels for rays that pass close to it.
+        let (radius, pivot) = if self.top_radius == S::ZERO {
+            (S::ZERO, self.half_height)
+        } else if self.base_radius == S::ZERO {
+            (S::ZERO, -self.half_height)
+        } else {
+            ((self.base_radius + self.top_radius) * S::HALF * rise, S::ZERO)
+        };
+        Slant { rise, growth, radius, pivot }
     }
 
-    /// The radius at a height, continued in a straight line beyond the caps.
-    #[inline]
+    /// The radius at a height between the caps.
     fn radius_at(&self, y: S) -> S {
-        (self.base_radius + self.top_radius) * S::HALF + self.slope() * y
+        let share = (y / self.half_height + S::ONE) * S::HALF;
+        self.base_radius * (S::ONE - share) + self.top_radius * share
     }
 
     fn radius_max(&self) -> S {
@@ -41,48 +68,72 @@ impl<S: Scalar> Cone<S> {
 
     /// The span inside the nappe that the frustum is cut from, or `None` beside it.
     #[inline]
-    fn nappe(&self, ray: &Local<S>, start: Option<(u16, bool)>) -> Option<Span<S>> {
-        let (l, d) = (ray.origin, ray.dir);
-        let (m0, m1) = (self.radius_at(l.y()), self.slope() * d.y());
+    fn nappe(&self, ray: &Local<S>) -> Option<Span<S>> {
+        let Slant { rise, growth, radius, pivot } = self.slant();
+        let d = ray.dir;
+        let from = ray.origin.with(Axis::Y, ray.origin.y() - pivot);
+        let middle = -from.dot(d) * ray.inv_dd;
+        let l = from + d * middle;
+        let (m0, m1) = (radius + growth * l.y(), growth * d.y());
         let across = d.x().squared() + d.z().squared();
-        let a = across - m1.squared();
-        let b = l.x() * d.x() + l.z() * d.z() - m0 * m1;
-        if let Some((SIDE, inward)) = start {
-            // Outside of two roots a steep ray stays in its nappe for ever.
-            let other = if a > S::ZERO { (b * S::TWO).abs() / a } else { S::FAR };
-            return Some(from_start(inward, other));
+        let distance = l.x().squared() + l.z().squared();
+        if is_axial(across, ray.dd) {
+            let gap = rise * distance.sqrt() - m0;
+            return if m1 == S::ZERO {
+                (gap < S::ZERO).then(Span::whole)
+            } else {
+                Some(half_line(m1 > S::ZERO, middle + gap / m1))
+            };
         }
         let (px, pz) = (m0 * d.x() - m1 * l.x(), m0 * d.z() - m1 * l.z());
-        let moment = l.x() * d.z() - l.z() * d.x();
+        let moment = (l.x() * d.z() - l.z() * d.x()) * rise;
         let discriminant = px.squared() + pz.squared() - moment.squared();
-        if !(discriminant > S::ZERO) {
+        let a = across * rise.squared() - m1.squared();
+        // A ray steeper than the side always meets both nappes.
+        if a >= S::ZERO && !(discriminant > S::ZERO) {
             return None;
         }
-        let root = discriminant.sqrt();
-        let c = l.x().squared() + l.z().squared() - m0.squared();
+        let root = discriminant.sqrt() * rise;
+        let b = (l.x() * d.x() + l.z() * d.z()) * rise.squared() - m0 * m1;
+        let c = distance * rise.squared() - m0.squared();
         // Both roots without cancellation: q/a and c/q.
         let q = if b < S::ZERO { root - b } else { -(root + b) };
+        if q == S::ZERO {
+            // Through the tip.
+            return (a < S::ZERO).then(|| half_line(m1 > S::ZERO, middle));
+        }
         let (first, second) = (c / q, q / a);
         if a > S::ZERO {
             let (enter, exit) = (first.min(second), first.max(second));
             let radius = m0 + m1 * ((enter + exit) * S::HALF);
-            (radius > S::ZERO).then(|| Span::of_face(SIDE, enter, exit))
+            (radius > S::ZERO).then(|| Span::of_face(SIDE, middle + enter, middle + exit))
         } else if a < S::ZERO {
-            let (low, high) = (first.min(second), first.max(second));
-            Some(if m1 > S::ZERO {
-                Span::of_face(SIDE, high, S::FAR)
-            } else {
-                Span::of_face(SIDE, -S::FAR, low)
-            })
+            let upward = m1 > S::ZERO;
+            let t = if upward { first.max(second) } else { first.min(second) };
+            Some(half_line(upward, middle + t))
         } else {
             // Parallel to a line of the side: one root.
-            Some(if b > S::ZERO {
-                Span::of_face(SIDE, -S::FAR, first)
-            } else {
-                Span::of_face(SIDE, first, S::FAR)
-            })
+            Some(half_line(b < S::ZERO, middle + first))
         }
     }
+
+    /// Where a ray that starts on the side and goes inward meets it again.
+    #[inline]
+    fn other_root(&self, ray: &Local<S>) -> S {
+        let Slant { rise, growth, radius, pivot } = self.slant();
+        let (l, d) = (ray.origin, ray.dir);
+        let (m0, m1) = (radius + growth * (l.y() - pivot), growth * d.y());
+        let a = (d.x().squared() + d.z().squared()) * rise.squared() - m1.squared();
+        let b = (l.x() * d.x() + l.z() * d.z()) * rise.squared() - m0 * m1;
+        // A ray steeper than the side stays in its nappe for ever.
+        if a > S::ZERO { (b * S::TWO).abs() / a } else { S::FAR }
+    }
+}
+
+/// What lies after t, or before it.
+#[inline]
+fn half_line<S: Scalar>(after: bool, t: S) -> Span<S> {
+    if after { Span::of_face(SIDE, t, S::FAR) } else { Span::of_face(SIDE, -S::FAR, t) }
 }
 
 impl<S: Scalar> Primitive<S> for Cone<S> {
@@ -103,30 +154,40 @@ impl<S: Scalar> Primitive<S> for Cone<S> {
                 check_length(radius, field)?;
             }
         }
-        if self.radius_max() == S::ZERO { Err(Flaw::Empty("base_radius")) } else { Ok(()) }
+        if self.radius_max() == S::ZERO {
+            return Err(Flaw::Empty("base_radius"));
+        }
+        // Flatter than this it is a disc as far as the number format can tell.
+        let growth = (self.top_radius - self.base_radius).abs();
+        let flat = self.half_height < growth * S::EPSILON;
+        if flat { Err(Flaw::NotPositive("half_height")) } else { Ok(()) }
     }
 
     fn bounds(&self, place: Option<&Placement<S>>, _: &[S::Vec3]) -> Bounds<S> {
         tube_bounds(place, self.center, self.half_height, self.radius_max())
     }
 
-    /// The quadric x² + z² = (m + s·y)² in the plane across the axis, with the discriminant as
-    /// a sum of squares; the nappe that holds the frustum, clipped by the caps.
+    /// The quadric x² + z² = (m + s·y)² in the plane across the axis, about the tip where
+    /// there is one, with the discriminant as a sum of squares; the nappe that holds the frustum, clipped by the caps.
     #[inline]
     fn spans(&self, sight: &Sight<'_, S>, mut emit: impl FnMut(Span<S>)) {
-        let start = sight.start.map(|start| (start.face, start.inward));
-        let ray = local(sight, self.center);
-        let (Some(mut span), Some(caps)) =
-            (self.nappe(&ray, start), caps(&ray, self.half_height, start))
-        else {
+        if let Some(start) = sight.start {
+            if start.inward {
+                let ray = Local::from_surface(sight.line, sight.place, start.local);
+                let side = if start.face == SIDE {
+                    Some(self.other_root(&ray))
+                } else {
+                    self.nappe(&ray).map(|span| span.exit.t)
+                };
+                emit(tube_exit(&ray, self.half_height, start.face, side));
+            }
+            return;
+        }
+        let ray = Local::recentred(sight.line, sight.place, self.center);
+        let (Some(side), Some(caps)) = (self.nappe(&ray), caps(&ray, self.half_height)) else {
             return;
         };
-        span.clip(&caps);
-        if span.is_open() {
-            span.enter.t += ray.shift;
-            span.exit.t += ray.shift;
-            emit(span);
-        }
+        emit_common(&ray, side, &caps, emit);
     }
 
     fn snap(&self, local: S::Vec3, face: u16) -> S::Vec3 {
@@ -141,15 +202,14 @@ impl<S: Scalar> Primitive<S> for Cone<S> {
     fn normal(&self, local: S::Vec3, face: u16, _: &[S::Vec3]) -> S::Vec3 {
         match face {
             SIDE => {
-                let radius = self.radius_at(local.y());
-                let side = S::Vec3::new(local.x(), -self.slope() * radius, local.z());
-                if side == S::Vec3::ZERO {
-                    // The apex looks along the axis.
-                    let up = if self.slope() < S::ZERO { S::ONE } else { -S::ONE };
-                    S::Vec3::new(S::ZERO, up, S::ZERO)
-                } else {
-                    side
+                let Slant { rise, growth, .. } = self.slant();
+                let distance = local.with(Axis::Y, S::ZERO).length();
+                if distance == S::ZERO {
+                    // The tip looks along the axis.
+                    return S::Vec3::ZERO
+                        .with(Axis::Y, if growth < S::ZERO { S::ONE } else { -S::ONE });
                 }
+                S::Vec3::new(local.x() * rise, -growth * distance, local.z() * rise)
             }
             TOP => S::Vec3::new(S::ZERO, S::ONE, S::ZERO),
             _ => S::Vec3::new(S::ZERO, -S::ONE, S::ZERO),

@@ -3,6 +3,7 @@
 use super::{Flaw, Primitive, Sight, check_point};
 use crate::bounds::Bounds;
 use crate::place::{Local, Placement};
+use crate::ray::Line;
 use crate::scalar::{Axis, Scalar, Vector};
 use crate::span::{End, Span};
 
@@ -35,31 +36,71 @@ impl<S: Scalar> Cuboid<S> {
         (axis, if upper { self.max.get(axis) } else { self.min.get(axis) })
     }
 
-    /// The span within the slab of one axis, or `None` beside it.
+    /// The span within the slab of one axis, or `None` beside it. A ray in the plane of a
+    /// side is within.
     #[inline]
-    fn slab(&self, axis: Axis, origin: S, dir: S, inv: S, start: Option<u16>) -> Option<Span<S>> {
-        let (low_face, high_face) = match axis {
-            Axis::X => (0, 1),
-            Axis::Y => (2, 3),
-            Axis::Z => (4, 5),
-        };
+    fn slab(&self, axis: Axis, origin: S, inv: S) -> Option<Span<S>> {
+        let (low_face, high_face) = faces(axis);
         let (min, max) = (self.min.get(axis), self.max.get(axis));
-        if dir == S::ZERO {
-            let within = start.is_none_or(|face| face != low_face && face != high_face)
-                && min <= origin
-                && origin <= max;
-            return within.then(Span::whole);
+        if !inv.is_finite() {
+            return (min <= origin && origin <= max).then(Span::whole);
         }
-        let end = |side: S, face: u16| {
-            let t = if start == Some(face) { S::ZERO } else { (side - origin) * inv };
-            End { t, face }
-        };
-        let (low, high) = (end(min, low_face), end(max, high_face));
-        Some(if dir < S::ZERO {
+        let low = End { t: (min - origin) * inv, face: low_face };
+        let high = End { t: (max - origin) * inv, face: high_face };
+        Some(if inv < S::ZERO {
             Span { enter: high, exit: low }
         } else {
             Span { enter: low, exit: high }
         })
+    }
+
+    /// Whether the ray goes through more than an edge or a corner, decided exactly: it enters
+    /// every slab before it leaves any.
+    #[cold]
+    fn is_crossed(&self, line: &Line<S>) -> bool {
+        let end = |axis: Axis, upper: bool| {
+            let side = if upper { self.max } else { self.min };
+            [side.get(axis), line.origin.get(axis), line.dir.get(axis)]
+        };
+        let moving = |axis: &Axis| line.inv_dir.get(*axis).is_finite();
+        Axis::ALL.into_iter().filter(moving).all(|a| {
+            let enter = end(a, line.dir.get(a) < S::ZERO);
+            Axis::ALL
+                .into_iter()
+                .filter(moving)
+                .all(|b| a == b || S::precedes(enter, end(b, line.dir.get(b) > S::ZERO)))
+        })
+    }
+
+    /// The span of a ray from a face to its inner side: it ends at the nearest side ahead,
+    /// and is never empty.
+    fn exit(&self, origin: S::Vec3, dir: S::Vec3, face: u16) -> Span<S> {
+        let mut span = Span::of_face(face, S::ZERO, S::FAR);
+        for axis in Axis::ALL {
+            let (low_face, high_face) = faces(axis);
+            let (o, d) = (origin.get(axis), dir.get(axis));
+            let (side, ahead) = if d < S::ZERO {
+                (self.min.get(axis), low_face)
+            } else {
+                (self.max.get(axis), high_face)
+            };
+            let t = (side - o) / d;
+            if d != S::ZERO && ahead != face && t < span.exit.t {
+                span.exit = End { t, face: ahead };
+            }
+        }
+        span.exit.t = span.exit.t.max(S::TINY);
+        span
+    }
+}
+
+/// The lower and the upper face of an axis.
+#[inline]
+const fn faces(axis: Axis) -> (u16, u16) {
+    match axis {
+        Axis::X => (0, 1),
+        Axis::Y => (2, 3),
+        Axis::Z => (4, 5),
     }
 }
 
@@ -96,27 +137,41 @@ impl<S: Scalar> Primitive<S> for Cuboid<S> {
     }
 
     /// The common part of three slabs. In the scene's axes the reciprocals are the ray's own
-    /// and the sides are taken as they are, so faces in one plane tie exactly.
+    /// and the sides are taken as they are, so faces in one plane tie exactly, and a ray
+    /// through an edge is decided exactly.
     #[inline]
     fn spans(&self, sight: &Sight<'_, S>, mut emit: impl FnMut(Span<S>)) {
-        let start = sight.start.map(|start| start.face);
-        let (shift, origin, dir, inv) = match (sight.place, sight.start) {
-            (None, _) => (S::ZERO, sight.line.origin, sight.line.dir, sight.line.inv_dir),
-            (Some(place), None) => {
-                let ray = Local::recentred(sight.line, Some(place), place.anchor);
-                (ray.shift, ray.origin, ray.dir, ray.dir.map(|d| S::ONE / d))
+        let line = sight.line;
+        if let Some(start) = sight.start {
+            if start.inward {
+                let dir = Local::from_surface(line, sight.place, start.local).dir;
+                emit(self.exit(start.local, dir, start.face));
             }
-            (Some(place), Some(start)) => {
-                let ray = Local::from_surface(sight.line, Some(place), start.local);
-                (ray.shift, ray.origin, ray.dir, ray.dir.map(|d| S::ONE / d))
+            return;
+        }
+        let (shift, origin, inv) = match sight.place {
+            None => (S::ZERO, line.origin, line.inv_dir),
+            Some(place) => {
+                let ray = Local::recentred(line, Some(place), place.anchor);
+                (ray.shift, ray.origin, ray.dir.map(|d| S::ONE / d))
             }
         };
         let mut span = Span::whole();
         for axis in Axis::ALL {
-            let (o, d, i) = (origin.get(axis), dir.get(axis), inv.get(axis));
-            match self.slab(axis, o, d, i, start) {
+            match self.slab(axis, origin.get(axis), inv.get(axis)) {
                 Some(slab) => span.clip(&slab),
                 None => return,
+            }
+        }
+        let (enter, exit) = (span.enter.t, span.exit.t);
+        if sight.place.is_none() {
+            let rounding = enter.abs().max(exit.abs()) * (S::EPSILON * S::from_i32(4));
+            if (exit - enter).abs() <= rounding {
+                if !self.is_crossed(line) {
+                    return;
+                }
+                span.exit.t = exit.max(enter);
+                return emit(span);
             }
         }
         if span.is_open() {

@@ -1,6 +1,5 @@
 //! The finite cylinder with its caps.
 
-use super::sphere::from_start;
 use super::{Flaw, Primitive, Sight, check_centre, check_length, turn};
 use crate::bounds::Bounds;
 use crate::place::{Local, Placement};
@@ -25,6 +24,27 @@ pub struct Cylinder<S: Scalar> {
     pub radius: S,
 }
 
+impl<S: Scalar> Cylinder<S> {
+    /// The span within the endless cylinder, or `None` beside it.
+    #[inline]
+    fn side(&self, ray: &Local<S>) -> Option<Span<S>> {
+        let (l, d) = (ray.origin, ray.dir);
+        let across = d.x().squared() + d.z().squared();
+        if is_axial(across, ray.dd) {
+            let square = self.radius.squared() - (l.x().squared() + l.z().squared());
+            return (square > S::ZERO).then(Span::whole);
+        }
+        let inverse = S::ONE / across;
+        let middle = -(l.x() * d.x() + l.z() * d.z()) * inverse;
+        let (x, z) = (l.x() + d.x() * middle, l.z() + d.z() * middle);
+        let square = self.radius.squared() - (x.squared() + z.squared());
+        (square > S::ZERO).then(|| {
+            let half = (square * inverse).sqrt();
+            Span::of_face(SIDE, middle - half, middle + half)
+        })
+    }
+}
+
 impl<S: Scalar> Primitive<S> for Cylinder<S> {
     const OPEN: bool = false;
     const SPANS_MAX: u16 = 1;
@@ -43,43 +63,27 @@ impl<S: Scalar> Primitive<S> for Cylinder<S> {
         tube_bounds(place, self.center, self.half_height, self.radius)
     }
 
-    /// In the plane across the axis, with D = a·r² − (x·dz − z·dx)², clipped by the caps.
+    /// A disc in the plane across the axis, solved like a ball, clipped by the caps. A ray
+    /// within rounding of parallel to the axis is parallel.
     #[inline]
     fn spans(&self, sight: &Sight<'_, S>, mut emit: impl FnMut(Span<S>)) {
-        let start = sight.start.map(|start| (start.face, start.inward));
-        let ray = local(sight, self.center);
-        let (l, d) = (ray.origin, ray.dir);
-        let across = d.x().squared() + d.z().squared();
-        let mut span = if let Some((SIDE, inward)) = start {
-            if across == S::ZERO {
-                return;
+        if let Some(start) = sight.start {
+            if start.inward {
+                let ray = Local::from_surface(sight.line, sight.place, start.local);
+                let side = if start.face == SIDE {
+                    Some(other_root(&ray))
+                } else {
+                    self.side(&ray).map(|span| span.exit.t)
+                };
+                emit(tube_exit(&ray, self.half_height, start.face, side));
             }
-            let other = ((l.x() * d.x() + l.z() * d.z()) * S::TWO).abs() / across;
-            from_start(inward, other)
-        } else if across == S::ZERO {
-            if l.x().squared() + l.z().squared() >= self.radius.squared() {
-                return;
-            }
-            Span::whole()
-        } else {
-            let moment = l.x() * d.z() - l.z() * d.x();
-            let discriminant = self.radius.squared() * across - moment.squared();
-            if !(discriminant > S::ZERO) {
-                return;
-            }
-            let (root, inverse) = (discriminant.sqrt(), S::ONE / across);
-            let middle = -(l.x() * d.x() + l.z() * d.z());
-            Span::of_face(SIDE, (middle - root) * inverse, (middle + root) * inverse)
+            return;
+        }
+        let ray = Local::recentred(sight.line, sight.place, self.center);
+        let (Some(side), Some(caps)) = (self.side(&ray), caps(&ray, self.half_height)) else {
+            return;
         };
-        match caps(&ray, self.half_height, start) {
-            Some(caps) => span.clip(&caps),
-            None => return,
-        }
-        if span.is_open() {
-            span.enter.t += ray.shift;
-            span.exit.t += ray.shift;
-            emit(span);
-        }
+        emit_common(&ray, side, &caps, emit);
     }
 
     fn snap(&self, local: S::Vec3, face: u16) -> S::Vec3 {
@@ -100,35 +104,75 @@ impl<S: Scalar> Primitive<S> for Cylinder<S> {
     }
 }
 
-/// The ray in the coordinates of a leaf with a centre, from its surface where it starts there.
+/// A ray that goes along the y axis, as far as its direction can tell.
 #[inline]
-pub(super) fn local<S: Scalar>(sight: &Sight<'_, S>, centre: S::Vec3) -> Local<S> {
-    match sight.start {
-        Some(start) => Local::from_surface(sight.line, sight.place, start.local),
-        None => Local::recentred(sight.line, sight.place, centre),
+pub(super) fn is_axial<S: Scalar>(across: S, dd: S) -> bool {
+    across <= dd * S::EPSILON.squared()
+}
+
+/// Where a ray that starts on the side and goes inward meets it again.
+#[inline]
+fn other_root<S: Scalar>(ray: &Local<S>) -> S {
+    let (l, d) = (ray.origin, ray.dir);
+    let across = d.x().squared() + d.z().squared();
+    if is_axial(across, ray.dd) {
+        return S::FAR;
+    }
+    ((l.x() * d.x() + l.z() * d.z()) * S::TWO).abs() / across
+}
+
+/// The span of a ray from a face of a round body to its inner side: it ends at the side, if it
+/// meets that at all, or at a cap, and is never empty.
+#[inline]
+pub(super) fn tube_exit<S: Scalar>(
+    ray: &Local<S>,
+    half_height: S,
+    face: u16,
+    side: Option<S>,
+) -> Span<S> {
+    let (y, dy) = (ray.origin.y(), ray.dir.y());
+    let mut exit = End { t: side.unwrap_or(S::ZERO), face: SIDE };
+    let mut offer = |t: S, face: u16| {
+        if t < exit.t {
+            exit = End { t, face };
+        }
+    };
+    if dy > S::ZERO && face != TOP {
+        offer((half_height - y) / dy, TOP);
+    } else if dy < S::ZERO && face != BASE {
+        offer((-half_height - y) / dy, BASE);
+    }
+    exit.t = exit.t.max(S::TINY);
+    Span { enter: End { t: S::ZERO, face }, exit }
+}
+
+/// Gives the common part of a side and its caps, in the ray's own parameter.
+#[inline]
+pub(super) fn emit_common<S: Scalar>(
+    ray: &Local<S>,
+    mut span: Span<S>,
+    caps: &Span<S>,
+    mut emit: impl FnMut(Span<S>),
+) {
+    span.clip(caps);
+    if span.is_open() {
+        span.enter.t += ray.shift;
+        span.exit.t += ray.shift;
+        emit(span);
     }
 }
 
-/// The span between two caps across the y axis, or `None` beside them.
+/// The span between two caps across the y axis, or `None` beside them. A ray in the plane of a
+/// cap is between them.
 #[inline]
-pub(super) fn caps<S: Scalar>(
-    ray: &Local<S>,
-    half_height: S,
-    start: Option<(u16, bool)>,
-) -> Option<Span<S>> {
-    let (y, dy) = (ray.origin.y(), ray.dir.y());
-    let face = start.map(|(face, _)| face);
-    if dy == S::ZERO {
-        let within = face != Some(BASE) && face != Some(TOP) && y.abs() <= half_height;
-        return within.then(Span::whole);
+pub(super) fn caps<S: Scalar>(ray: &Local<S>, half_height: S) -> Option<Span<S>> {
+    let (y, inverse) = (ray.origin.y(), S::ONE / ray.dir.y());
+    if !inverse.is_finite() {
+        return (y.abs() <= half_height).then(Span::whole);
     }
-    let inverse = S::ONE / dy;
-    let end = |side: S, cap: u16| {
-        let t = if face == Some(cap) { S::ZERO } else { (side - y) * inverse };
-        End { t, face: cap }
-    };
-    let (low, high) = (end(-half_height, BASE), end(half_height, TOP));
-    Some(if dy < S::ZERO {
+    let low = End { t: (-half_height - y) * inverse, face: BASE };
+    let high = End { t: (half_height - y) * inverse, face: TOP };
+    Some(if inverse < S::ZERO {
         Span { enter: high, exit: low }
     } else {
         Span { enter: low, exit: high }

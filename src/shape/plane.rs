@@ -58,34 +58,38 @@ impl<S: Scalar> Primitive<S> for Plane<S> {
         bounds
     }
 
-    /// (offset − n·o) / (n·d). An oblique plane is solved a second time from the point found,
-    /// so that the error follows the point hit and not the distance of the origin.
+    /// (offset − n·o) / (n·d). An oblique plane takes its products without cancellation and is
+    /// solved a second time from the point found, so that the error follows the point hit and
+    /// not the distance of the origin.
     #[inline]
     fn spans(&self, sight: &Sight<'_, S>, mut emit: impl FnMut(Span<S>)) {
-        let (line, speed) = (sight.line, self.normal.dot(sight.line.dir));
+        let line = sight.line;
         let mut span = Span::whole();
         if let Some(start) = sight.start {
             if start.inward {
                 span.enter.t = S::ZERO;
-            } else {
-                span.exit.t = S::ZERO;
+                emit(span);
             }
-            return emit(span);
+            return;
         }
-        let height = self.offset - self.normal.dot(line.origin);
-        if speed == S::ZERO {
+        let oblique = self.axis().is_none();
+        let dot = |v: S::Vec3| {
+            if oblique { S::dot_wide(self.normal, v) } else { self.normal.dot(v) }
+        };
+        let inverse = S::ONE / dot(line.dir);
+        let height = self.offset - dot(line.origin);
+        let mut t = height * inverse;
+        if !inverse.is_finite() || !t.is_finite() {
+            // Parallel.
             if height >= S::ZERO {
                 emit(span);
             }
             return;
         }
-        let inverse = S::ONE / speed;
-        let mut t = height * inverse;
-        if self.axis().is_none() && t.is_finite() {
-            let reached = line.recentred(S::Vec3::ZERO, t);
-            t += (self.offset - self.normal.dot(reached)) * inverse;
+        if oblique {
+            t += (self.offset - dot(line.recentred(S::Vec3::ZERO, t))) * inverse;
         }
-        if speed > S::ZERO {
+        if inverse > S::ZERO {
             span.exit.t = t;
         } else {
             span.enter.t = t;
@@ -107,8 +111,8 @@ impl<S: Scalar> Primitive<S> for Plane<S> {
         self.normal
     }
 
-    /// Distances along two axes in the plane: for the ground (normal +y), x and −z... the
-    /// basis of [`Vector::basis`].
+    /// Distances from the scene's origin along the two axes in the plane that
+    /// [`Vector::basis`] gives.
     fn uv(&self, local: S::Vec3, _: u16, _: &[S::Vec3]) -> [S; 2] {
         let (u, v) = self.normal.normalize().basis();
         [local.dot(u), local.dot(v)]

@@ -77,23 +77,24 @@ impl<S: Scalar> Primitive<S> for Polygon<S> {
         Bounds::around(self.vertices(points))
     }
 
-    /// The plane gives t; edges that cross a half-line in the space of the ray give inside or
-    /// outside. Each point of an edge that two polygons share belongs to one of them.
+    /// The plane gives t, between the depths of the vertices; edges that cross a half-line in
+    /// the space of the ray give inside or outside. Each point of an edge that two polygons
+    /// share belongs to one of them.
     #[inline]
     fn spans(&self, sight: &Sight<'_, S>, mut emit: impl FnMut(Span<S>)) {
         let (line, vertices) = (sight.line, self.vertices(sight.points));
-        let speed = self.normal.dot(line.dir);
         let (Some(&first), Some(&last)) = (vertices.first(), vertices.last()) else {
             return;
         };
-        if sight.start.is_some() || speed == S::ZERO {
+        if sight.start.is_some() {
             return;
         }
         let shear = Shear::new(line);
-        let mut inside = false;
-        let [mut px, mut py] = shear.across(last, line.origin);
+        let (mut inside, mut near, mut far) = (false, S::FAR, -S::FAR);
+        let [mut px, mut py, _] = shear.across(last, line.origin);
         for &vertex in vertices {
-            let [qx, qy] = shear.across(vertex, line.origin);
+            let [qx, qy, depth] = shear.across(vertex, line.origin);
+            (near, far) = (near.min(depth), far.max(depth));
             let upward = qy > S::ZERO;
             if (py > S::ZERO) != upward {
                 let side = S::det2(px, qy, qx, py);
@@ -102,7 +103,9 @@ impl<S: Scalar> Primitive<S> for Polygon<S> {
             [px, py] = [qx, qy];
         }
         if inside {
-            emit(Span::touch((first - line.origin).dot(self.normal) / speed));
+            let speed = self.normal.dot(line.dir);
+            let t = (first - line.origin).dot(self.normal) / speed;
+            emit(Span::touch(if speed == S::ZERO { near } else { t.clamp(near, far) }));
         }
     }
 

@@ -43,9 +43,11 @@ impl<S: Scalar> Primitive<S> for Sphere<S> {
     #[inline]
     fn spans(&self, sight: &Sight<'_, S>, mut emit: impl FnMut(Span<S>)) {
         if let Some(start) = sight.start {
-            let ray = Local::from_surface(sight.line, sight.place, start.local);
-            let other = (ray.origin.dot(ray.dir) * S::TWO).abs() * ray.inv_dd;
-            emit(from_start(start.inward, other));
+            if start.inward {
+                let ray = Local::from_surface(sight.line, sight.place, start.local);
+                let other = (ray.origin.dot(ray.dir) * S::TWO).abs() * ray.inv_dd;
+                emit(Span::of_face(0, S::ZERO, other.max(S::TINY)));
+            }
             return;
         }
         let ray = Local::recentred(sight.line, sight.place, self.center);
@@ -71,15 +73,5 @@ impl<S: Scalar> Primitive<S> for Sphere<S> {
     fn uv(&self, local: S::Vec3, _: u16, _: &[S::Vec3]) -> [S; 2] {
         let v = S::ONE - (local.y() / self.radius).acos() / S::PI;
         [turn(local.x(), local.z()), v]
-    }
-}
-
-/// The span of a ray that starts on a curved face whose other root lies `other` away: the
-/// side on which it lies is known from the normal, not from rounding.
-pub(super) fn from_start<S: Scalar>(inward: bool, other: S) -> Span<S> {
-    if inward {
-        Span::of_face(0, S::ZERO, other.max(S::TINY))
-    } else {
-        Span::of_face(0, -other, S::ZERO)
     }
 }

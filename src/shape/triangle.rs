@@ -69,6 +69,8 @@ pub(super) struct Shear<S> {
     axes: [Axis; 3],
     x: S,
     y: S,
+    /// 1 / the direction along the third.
+    inverse: S,
 }
 
 impl<S: Scalar> Shear<S> {
@@ -86,17 +88,17 @@ impl<S: Scalar> Shear<S> {
         let axes = [along.next(), along.next().next(), along];
         let inverse = line.inv_dir.get(along);
         let share = |axis: Axis| line.dir.get(axis) * inverse;
-        Self { axes, x: share(along.next()), y: share(along.next().next()) }
+        Self { axes, x: share(along.next()), y: share(along.next().next()), inverse }
     }
 
-    /// A vertex across the ray, relative to its origin. The same vertex gives the same bits
+    /// A vertex across the ray, relative to its origin, and the t of its depth. The same vertex gives the same bits
     /// whatever it is a vertex of; that is what makes shared edges watertight.
     #[inline]
-    pub(super) fn across(&self, vertex: S::Vec3, origin: S::Vec3) -> [S; 2] {
+    pub(super) fn across(&self, vertex: S::Vec3, origin: S::Vec3) -> [S; 3] {
         let from = vertex - origin;
         let [kx, ky, kz] = self.axes;
         let depth = from.get(kz);
-        [from.get(kx) - self.x * depth, from.get(ky) - self.y * depth]
+        [from.get(kx) - self.x * depth, from.get(ky) - self.y * depth, depth * self.inverse]
     }
 }
 
@@ -138,7 +140,8 @@ impl<S: Scalar> Primitive<S> for Triangle {
             return;
         }
         let (line, shear) = (sight.line, Shear::new(sight.line));
-        let [[ax, ay], [bx, by], [cx, cy]] = [a, b, c].map(|v| shear.across(v, line.origin));
+        let [[ax, ay, at], [bx, by, bt], [cx, cy, ct]] =
+            [a, b, c].map(|v| shear.across(v, line.origin));
         let u = S::det2(cx, by, cy, bx);
         let v = S::det2(ax, cy, ay, cx);
         let w = S::det2(bx, ay, by, ax);
@@ -148,9 +151,7 @@ impl<S: Scalar> Primitive<S> for Triangle {
         if (negative && positive) || sum == S::ZERO {
             return;
         }
-        let [_, _, along] = shear.axes;
-        let depth = |p: S::Vec3| (p.get(along) - line.origin.get(along)) * line.inv_dir.get(along);
-        emit(Span::touch((u * depth(a) + v * depth(b) + w * depth(c)) / sum));
+        emit(Span::touch((u * at + v * bt + w * ct) / sum));
     }
 
     fn snap(&self, local: S::Vec3, _: u16) -> S::Vec3 {
