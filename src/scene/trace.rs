@@ -6,7 +6,7 @@ use crate::error::SceneError;
 use crate::material::Material;
 use crate::ray::{Line, Ray, Start};
 use crate::scalar::{Scalar, Vector};
-use crate::solid::{Leaf, Node};
+use crate::solid::{Contact, Leaf, Node};
 use crate::span::{Boundary, End, Passage};
 use crate::stats::{Event, Tally};
 
@@ -76,6 +76,14 @@ impl<'a, S: Scalar> Scene<'a, S> {
     ) -> Result<Option<Hit<S>>, SceneError> {
         self.check_room(buffer.len())?;
         Ok(self.search(&Line::new(ray, None), S::FAR, buffer, &mut ()).hit)
+    }
+
+    /// The point of the surface where a ray meets a hit that was found along it; `None` for a
+    /// hit of another scene.
+    pub fn contact(&self, ray: Ray<S>, hit: &Hit<S>) -> Option<Contact<S>> {
+        let Boundary { t, node, face, .. } = hit.boundary;
+        let leaf = self.geometry().leaf(node)?;
+        Some(self.geometry().contact(&Line::new(ray, None), leaf, End { t, face }))
     }
 
     /// The nearest boundary in 0 < t < `t_max`, and the media at the start.

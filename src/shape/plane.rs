@@ -58,9 +58,9 @@ impl<S: Scalar> Primitive<S> for Plane<S> {
         bounds
     }
 
-    /// (offset − n·o) / (n·d). An oblique plane takes its products without cancellation and is
-    /// solved a second time from the point found, so that the error follows the point hit and
-    /// not the distance of the origin.
+    /// (offset − n·o) / (n·d). Where the normal is not a unit vector along an axis, the products
+    /// are taken without cancellation and t is solved a second time from the point found, so
+    /// that the error follows the point hit and not the distance of the origin.
     #[inline]
     fn spans(&self, sight: &Sight<'_, S>, mut emit: impl FnMut(Span<S>)) {
         let line = sight.line;
@@ -72,7 +72,7 @@ impl<S: Scalar> Primitive<S> for Plane<S> {
             }
             return;
         }
-        let oblique = self.axis().is_none();
+        let oblique = self.normal.length_squared() != S::ONE || self.axis().is_none();
         let dot = |v: S::Vec3| {
             if oblique { S::dot_wide(self.normal, v) } else { self.normal.dot(v) }
         };

@@ -5,6 +5,8 @@
 #![allow(dead_code, unreachable_pub, reason = "each test program uses a part of the oracle")]
 #![allow(clippy::expect_used, clippy::panic, clippy::indexing_slicing, reason = "tests may panic")]
 
+pub mod subject;
+
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
