@@ -5,15 +5,16 @@
 use nostray::ray::{Line, Start};
 use nostray::shape::Sight;
 use nostray::{
-    Affine, Axis, Fixed, Form, Leaf, Material, Node, Placement, Ray, Rgb, Scalar, SceneBuilder,
-    Shape, Vector,
+    Affine, Axis, Fixed, Form, Material, Node, Placement, Ray, Rgb, Scalar, SceneBuilder, Shape,
+    Vector,
 };
 
-use super::{Path, Point, Random, Real, Solid, along, array, inverse_rows, point, vector};
+use super::{Point, Random, Real, Solid, along, array, inverse_rows, point, vector};
 
 /// A leaf, and its exact twins: from the numbers that the user gave, and from those that the
 /// leaf stores.
 pub struct Subject<S: Scalar> {
+    pub builder: SceneBuilder<S, Fixed<1, 1, 1, 1>>,
     pub shape: Shape<S>,
     pub place: Option<Placement<S>>,
     pub given: Solid,
@@ -146,12 +147,12 @@ impl<S: Scalar> Subject<S> {
         let material = builder.material(Material::matte(Rgb::WHITE)).expect("room");
         builder.leaf(form, map, material).expect("a legal solid");
         let scene = builder.scene().expect("a legal scene");
-        let Some(Node::Leaf(leaf)) = scene.parts().nodes.first() else {
+        let Some(&Node::Leaf(leaf)) = scene.parts().nodes.first() else {
             panic!("one leaf");
         };
         let place = scene.parts().placements.first().copied();
         let stored = stored::<S>(&leaf.shape, place.as_ref());
-        Self { shape: leaf.shape, place, given, stored, size }
+        Self { builder, shape: leaf.shape, place, given, stored, size }
     }
 
     /// The one span of a convex solid.
