@@ -14,7 +14,7 @@ pub struct SplitDir<F> {
 }
 
 macro_rules! float {
-    ($float:ident, $vec:ty, $math:ident, $name:literal, $split:literal, $root:literal, $coord:literal, $length:literal, $bytes:literal) => {
+    ($float:ident, $vec:ty, $math:ident, $name:literal, $split:literal, $root:literal, $coord:expr, $length:expr, $bytes:literal) => {
         impl Vector for $vec {
             type Scalar = $float;
             const ZERO: Self = <$vec>::ZERO;
@@ -255,8 +255,8 @@ float!(
     "f32",
     4097.0,
     0.00048828125,
-    1.125899906842624e15,
-    8.881784197001252e-16,
+    (1_u64 << 50) as f32,
+    1.0 / (1_u64 << 50) as f32,
     4
 );
 float!(f64, glam::DVec3, double, "f64", 134_217_729.0, 1.4901161193847656e-8, 1e120, 1e-120, 8);

@@ -90,7 +90,7 @@ impl<S: Scalar> Cone<S> {
         let discriminant = px.squared() + pz.squared() - moment.squared();
         let a = across * rise.squared() - m1.squared();
         // A ray steeper than the side always meets both nappes.
-        if a >= S::ZERO && !(discriminant > S::ZERO) {
+        if a >= S::ZERO && discriminant <= S::ZERO {
             return None;
         }
         let root = discriminant.sqrt() * rise;

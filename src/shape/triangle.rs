@@ -102,6 +102,17 @@ impl<S: Scalar> Shear<S> {
     }
 }
 
+/// A ray through an edge is inside: of the edges from one y to the next, with these edge
+/// functions, a half-line along x crosses an odd number.
+#[cold]
+fn owns_edge<S: Scalar>([ay, by, cy]: [S; 3], [ab, bc, ca]: [S; 3]) -> bool {
+    let crosses = |from: S, to: S, side: S| {
+        let upward = to > S::ZERO;
+        (from > S::ZERO) != upward && if upward { side < S::ZERO } else { side > S::ZERO }
+    };
+    crosses(ay, by, ab) ^ crosses(by, cy, bc) ^ crosses(cy, ay, ca)
+}
+
 impl<S: Scalar> Primitive<S> for Triangle {
     const OPEN: bool = true;
     const SPANS_MAX: u16 = 1;
@@ -130,7 +141,8 @@ impl<S: Scalar> Primitive<S> for Triangle {
     }
 
     /// Source: Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (2013); the edge
-    /// functions have their exact sign, so no wider fallback is needed.
+    /// functions have their exact sign, so no wider fallback is needed. A point of an edge that
+    /// two faces share belongs to one of them, by the rule of [`Polygon`](super::Polygon).
     #[inline]
     fn spans(&self, sight: &Sight<'_, S>, mut emit: impl FnMut(Span<S>)) {
         let Some([a, b, c]) = self.corners::<S>(sight.points) else {
@@ -145,6 +157,10 @@ impl<S: Scalar> Primitive<S> for Triangle {
         let u = S::det2(cx, by, cy, bx);
         let v = S::det2(ax, cy, ay, cx);
         let w = S::det2(bx, ay, by, ax);
+        let edge = u == S::ZERO || v == S::ZERO || w == S::ZERO;
+        if edge && !owns_edge([ay, by, cy], [w, u, v]) {
+            return;
+        }
         let negative = u < S::ZERO || v < S::ZERO || w < S::ZERO;
         let positive = u > S::ZERO || v > S::ZERO || w > S::ZERO;
         let sum = u + v + w;
