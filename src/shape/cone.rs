@@ -24,14 +24,13 @@ pub struct Cone<S: Scalar> {
 }
 
 /// The line that sweeps out the side, as `rise·ρ = radius + growth·y` in the distance ρ from
-/// the axis and the height y above `pivot`; the greater of |rise| and |growth| is 1, so that
+/// the axis and the height y above the middle; the greater of |rise| and |growth| is 1, so that
 /// neither flat nor slender cones overflow.
 #[derive(Clone, Copy)]
 struct Slant<S> {
     rise: S,
     growth: S,
     radius: S,
-    pivot: S,
 }
 
 impl<S: Scalar> Cone<S> {
@@ -45,15 +44,7 @@ impl<S: Scalar> Cone<S> {
         } else {
             (rise / -growth, -S::ONE)
         };
-        // About the tip of a cone nothing cancels for rays that pass close to it.
-        let (radius, pivot) = if self.top_radius == S::ZERO {
-            (S::ZERO, self.half_height)
-        } else if self.base_radius == S::ZERO {
-            (S::ZERO, -self.half_height)
-        } else {
-            ((self.base_radius + self.top_radius) * S::HALF * rise, S::ZERO)
-        };
-        Slant { rise, growth, radius, pivot }
+        Slant { rise, growth, radius: (self.base_radius + self.top_radius) * S::HALF * rise }
     }
 
     /// The radius at a height between the caps.
@@ -69,11 +60,8 @@ impl<S: Scalar> Cone<S> {
     /// The span inside the nappe that the frustum is cut from, or `None` beside it.
     #[inline]
     fn nappe(&self, ray: &Local<S>) -> Option<Span<S>> {
-        let Slant { rise, growth, radius, pivot } = self.slant();
-        let d = ray.dir;
-        let from = ray.origin.with(Axis::Y, ray.origin.y() - pivot);
-        let middle = -from.dot(d) * ray.inv_dd;
-        let l = from + d * middle;
+        let Slant { rise, growth, radius } = self.slant();
+        let (l, d) = (ray.origin, ray.dir);
         let (m0, m1) = (radius + growth * l.y(), growth * d.y());
         let across = d.x().squared() + d.z().squared();
         let distance = l.x().squared() + l.z().squared();
@@ -82,7 +70,7 @@ impl<S: Scalar> Cone<S> {
             return if m1 == S::ZERO {
                 (gap < S::ZERO).then(Span::whole)
             } else {
-                Some(half_line(m1 > S::ZERO, middle + gap / m1))
+                Some(half_line(m1 > S::ZERO, gap / m1))
             };
         }
         let (px, pz) = (m0 * d.x() - m1 * l.x(), m0 * d.z() - m1 * l.z());
@@ -100,29 +88,29 @@ impl<S: Scalar> Cone<S> {
         let q = if b < S::ZERO { root - b } else { -(root + b) };
         if q == S::ZERO {
             // Through the tip.
-            return (a < S::ZERO).then(|| half_line(m1 > S::ZERO, middle));
+            return (a < S::ZERO).then(|| half_line(m1 > S::ZERO, S::ZERO));
         }
         let (first, second) = (c / q, q / a);
         if a > S::ZERO {
             let (enter, exit) = (first.min(second), first.max(second));
             let radius = m0 + m1 * ((enter + exit) * S::HALF);
-            (radius > S::ZERO).then(|| Span::of_face(SIDE, middle + enter, middle + exit))
+            (radius > S::ZERO).then(|| Span::of_face(SIDE, enter, exit))
         } else if a < S::ZERO {
             let upward = m1 > S::ZERO;
             let t = if upward { first.max(second) } else { first.min(second) };
-            Some(half_line(upward, middle + t))
+            Some(half_line(upward, t))
         } else {
             // Parallel to a line of the side: one root.
-            Some(half_line(b < S::ZERO, middle + first))
+            Some(half_line(b < S::ZERO, first))
         }
     }
 
     /// Where a ray that starts on the side and goes inward meets it again.
     #[inline]
     fn other_root(&self, ray: &Local<S>) -> S {
-        let Slant { rise, growth, radius, pivot } = self.slant();
+        let Slant { rise, growth, radius } = self.slant();
         let (l, d) = (ray.origin, ray.dir);
-        let (m0, m1) = (radius + growth * (l.y() - pivot), growth * d.y());
+        let (m0, m1) = (radius + growth * l.y(), growth * d.y());
         let a = (d.x().squared() + d.z().squared()) * rise.squared() - m1.squared();
         let b = (l.x() * d.x() + l.z() * d.z()) * rise.squared() - m0 * m1;
         // A ray steeper than the side stays in its nappe for ever.
