@@ -7,7 +7,7 @@
 mod oracle;
 
 use nostray::ray::Start;
-use nostray::{Affine, Axis, Form, Ray, Scalar, Shape, Vector};
+use nostray::{Affine, Axis, Boundary, Form, Passage, Ray, Scalar, Shape, Vector};
 use oracle::subject::{Kind, Plan, Subject};
 use oracle::{Path, Random, Real, Solid, along, array, inverse_rows, length, point, vector};
 
@@ -97,7 +97,9 @@ impl<S: Scalar> Contact<S> {
         let dir = vector::<S>(dir.map(|x| x / length(dir)));
         let ray = Ray { origin: vector::<S>(origin), dir };
         let scene = subject.builder.scene().expect("a legal scene");
-        let hit = scene.nearest(ray, &mut [])?;
+        let vacant =
+            Boundary { t: S::ZERO, node: 0, face: 0, passage: Passage::Touch, inverted: false };
+        let hit = scene.nearest(ray, &mut [vacant; 2]).expect("room for one leaf")?;
         let contact = scene.contact(ray, &hit).expect("of this scene");
         let face = hit.boundary.face;
         Some(Self {

@@ -9,12 +9,22 @@ pub mod subject;
 
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::sync::LazyLock;
 
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use nostray::{Affine, Ray, Scalar, Vector};
 
 const PRECISION: usize = 300;
+
+/// 2 to the power 4096.
+static FAR: LazyLock<Real> = LazyLock::new(|| {
+    let mut far = Real::from(2.0);
+    for _ in 0..12 {
+        far = &far * &far;
+    }
+    far
+});
 
 /// A number of 300 bits.
 #[derive(Clone, Debug, PartialEq, PartialOrd)]
@@ -28,19 +38,15 @@ impl Real {
 
     /// Farther than any boundary.
     pub fn far() -> Self {
-        let mut far = Self::from(2.0);
-        for _ in 0..12 {
-            far = &far * &far;
-        }
-        far
+        FAR.clone()
     }
 
     pub fn sqrt(&self) -> Self {
-        if *self > Self::from(0.0) { Self(self.0.sqrt()) } else { Self::from(0.0) }
+        if self.sign() > 0 { Self(self.0.sqrt()) } else { Self::from(0.0) }
     }
 
     pub fn abs(&self) -> Self {
-        if *self < Self::from(0.0) { -self } else { self.clone() }
+        if self.sign() < 0 { -self } else { self.clone() }
     }
 
     pub fn to_f64(&self) -> f64 {
@@ -48,7 +54,7 @@ impl Real {
     }
 
     pub fn sign(&self) -> i32 {
-        match self.partial_cmp(&Self::from(0.0)) {
+        match self.0.partial_cmp(&FBig::<HalfEven, 2>::ZERO) {
             Some(Ordering::Less) => -1,
             Some(Ordering::Greater) => 1,
             _ => 0,
