@@ -107,7 +107,8 @@ impl<S: Scalar> Affine<S> {
         let det = self.determinant();
         let size = a.length() * b.length() * c.length();
         let least = size * S::EPSILON * S::from_i32(4);
-        if !size.is_finite() || !(det.abs() > least) {
+        let invertible = size.is_finite() && det.abs() > least;
+        if !invertible {
             return None;
         }
         let inverse = S::ONE / det;

@@ -11,6 +11,7 @@
 
 mod oracle;
 
+use nostray::ray::Line;
 use nostray::{Affine, Axis, Form, Ray, Scalar, Vector};
 use oracle::subject::{Kind, Plan, ROUND, Subject};
 use oracle::{Path, Random, Real, Solid, along, array, length, point, ulp, vector};
@@ -52,6 +53,10 @@ impl Row {
         let found = subject.span(ray);
         let truth = exact.span(&path, &Real::from(0.0));
         self.hits += u32::from(truth.is_some());
+        if found.is_some_and(|[_, exit]| exit > 0.0) {
+            let bounds = subject.shape.bounds(subject.place.as_ref(), &[]);
+            assert!(bounds.meets(&Line::new(ray, None), S::FAR), "bounds lose {ray:?}");
+        }
         match (found, &truth) {
             (Some(found), Some(truth)) => self.measure(found, truth, size.whole, ray),
             (None, None) => {}
@@ -169,8 +174,8 @@ fn show(table: &mut Table, kind: Kind, what: &str, [given, stored]: &[Row; 2], l
 /// that weighs more.
 fn margin_of(kind: Kind) -> f64 {
     match kind {
-        Kind::Sphere | Kind::Cylinder => 0.5,
-        Kind::Cone | Kind::Frustum => 1.0,
+        Kind::Sphere | Kind::Cylinder => 1.0,
+        Kind::Cone | Kind::Frustum => 2.0,
         Kind::Splinter => 16.0,
         _ => 4.0,
     }

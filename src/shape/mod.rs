@@ -4,9 +4,9 @@
 //! | --- | --- |
 //! | [`Sphere`], ellipsoid | recentred without cancellation, then solved in place |
 //! | [`Plane`] | one division, refined where the normal is oblique |
-//! | [`Cuboid`] | slabs with the reciprocals of the ray, parallel rays apart |
-//! | [`Cylinder`] | recentred, Lagrange's form of the discriminant, clipped by its caps |
-//! | [`Cone`] | the same about an apex; frusta and both directions of the axis |
+//! | [`Cuboid`] | slabs with the reciprocals of the ray, parallel rays apart, ties decided exactly |
+//! | [`Cylinder`] | recentred, a disc in the plane across the axis, clipped by its caps |
+//! | [`Cone`] | recentred, the discriminant as a sum of squares; one nappe, clipped by its caps |
 //! | [`Triangle`] | watertight edge functions in the space of the ray |
 //! | [`Polygon`] | the same edge functions, counted along a half-line; concave allowed |
 
@@ -86,6 +86,10 @@ pub trait Primitive<S: Scalar> {
     /// A box around the shape.
     fn bounds(&self, place: Option<&Placement<S>>, points: &[S::Vec3]) -> Bounds<S>;
     /// Gives each span of the ray inside the shape, in ascending order, behind the origin too.
+    /// Of a ray that starts on the shape's own surface only what lies ahead is given.
+    ///
+    /// A ray in a flat face is inside; one that only touches a curved side or an edge is not.
+    /// A component of the direction whose reciprocal is infinite counts as 0.
     fn spans(&self, sight: &Sight<'_, S>, emit: impl FnMut(Span<S>));
     /// The point of a face nearest to a local point close to it.
     fn snap(&self, local: S::Vec3, face: u16) -> S::Vec3;
@@ -159,6 +163,10 @@ impl<S: Scalar> Shape<S> {
     }
 
     /// Gives each span of the ray inside the shape, in ascending order, behind the origin too.
+    /// Of a ray that starts on the shape's own surface only what lies ahead is given.
+    ///
+    /// A ray in a flat face is inside; one that only touches a curved side or an edge is not.
+    /// A component of the direction whose reciprocal is infinite counts as 0.
     #[inline]
     pub fn spans(&self, sight: &Sight<'_, S>, emit: impl FnMut(Span<S>)) {
         each!(self, shape => Primitive::<S>::spans(shape, sight, emit));

@@ -65,7 +65,8 @@ impl<S: Scalar> Primitive<S> for Polygon<S> {
         if vertices.len() < 3 || newell == S::Vec3::ZERO {
             return Err(Flaw::Empty("vertices"));
         }
-        if !((newell - self.normal).max_abs() <= S::from_ratio(1, 1000)) {
+        let agrees = (newell - self.normal).max_abs() <= S::from_ratio(1, 1000);
+        if !agrees {
             return Err(Flaw::NotPlanar("normal"));
         }
         let size = vertices.iter().fold(S::ZERO, |size, &v| size.max((v - first).max_abs()));
