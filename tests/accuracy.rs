@@ -235,8 +235,8 @@ fn inside<S: Scalar>(rays: u32, [low, high]: [f64; 2], limit: Limit) {
 
 #[test]
 fn silhouettes_f32() {
-    silhouettes::<f32>(2000, &[1e1, 1e3, 1e5, 1e7]);
-    grazing::<f32>(4000);
+    silhouettes::<f32>(1500, &[1e1, 1e3, 1e5, 1e7]);
+    grazing::<f32>(3000);
 }
 
 #[test]

@@ -218,3 +218,38 @@ fn lengths_at_their_limits() {
     limits::<f32>();
     limits::<f64>();
 }
+
+/// The smallest and the largest solids are as exact as any.
+fn scales<S: Scalar>() {
+    let mut random = Random::new(10);
+    for size in [S::LENGTH_MIN.to_f64(), S::COORD_MAX.to_f64()] {
+        let subjects = [
+            sphere::<S>(size),
+            upright::<S>([size; 2], size),
+            upright::<S>([size, 0.0], size),
+            upright::<S>([(0.5 * size).max(S::LENGTH_MIN.to_f64()), size], size),
+            cuboid::<S>([-size; 3], [size; 3]),
+        ];
+        for subject in &subjects {
+            for _ in 0..200 {
+                let target = random.ball().map(|x| x * size * 0.3);
+                let dir = random.direction();
+                let origin = along(target, -5.0 * size, dir);
+                let speed = random.decades(-3.0, 3.0);
+                let dir = dir.map(|x| x * speed);
+                assert!(
+                    subject.span(ray(origin, dir)).is_some(),
+                    "{:?} {origin:?} {dir:?}",
+                    subject.shape
+                );
+                agrees(subject, ray(origin, dir), S::EPSILON.to_f64() * 8.0);
+            }
+        }
+    }
+}
+
+#[test]
+fn errors_do_not_depend_on_scale() {
+    scales::<f32>();
+    scales::<f64>();
+}

@@ -242,7 +242,7 @@ fn starts<S: Scalar>(body: Body, rays: u32) -> Errors {
         assert!(inward, "{body:?}: a hit on the surface that the ray leaves");
         assert!(enter == 0.0 && exit > 0.0, "{body:?}: {enter}..{exit}");
         assert!(exit.is_finite() || matches!(body, Body::Plane), "{body:?}: no exit");
-        if n % 80 < 4 && exit.is_finite() {
+        if n % 160 < 4 && exit.is_finite() {
             errors.position = errors.position.max(contact.check(&this, reach));
             let cosine = contact.normal.dot(dir).to_f64();
             if cosine < -16.0 * S::EPSILON.to_f64() {

@@ -260,10 +260,10 @@ fn faces<S: Scalar>(rays: u32) {
         let target = target.map(|x| x / corners.len() as f64);
         let target = along(target, 100.0, random.ball());
         let distance = random.decades(0.0, 5.0);
-        let dir = random.direction();
+        let (dir, speed) = (random.direction(), random.decades(-3.0, 3.0));
         let ray = Ray {
             origin: vector::<S>(along(target, -distance, dir)),
-            dir: vector::<S>(dir.map(|x| x * random.decades(-3.0, 3.0))),
+            dir: vector::<S>(dir.map(|x| x * speed)),
         };
         let path = Path::of(&ray);
         let speed = dot(&normal, &path.dir);
