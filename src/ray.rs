@@ -75,4 +75,15 @@ impl<S: Scalar> Line<S> {
     pub fn recentred(&self, centre: S::Vec3, k: S) -> S::Vec3 {
         S::recentre(self.origin, centre, self.dir, &self.aim, k)
     }
+
+    /// The ray's line may come within `radius` of `centre`. Never false where it does; what
+    /// rounding may have added to the distance is allowed for.
+    #[inline]
+    pub fn may_pass(&self, centre: S::Vec3, radius: S) -> bool {
+        let from = self.origin - centre;
+        let nearest = from - self.dir * (from.dot(self.dir) * self.inv_dd);
+        let reach = from.x().abs() + from.y().abs() + from.z().abs();
+        let distance = radius + reach * (S::EPSILON * S::from_i32(16));
+        nearest.length_squared() <= distance.squared()
+    }
 }

@@ -50,6 +50,9 @@ impl<S: Scalar> Primitive<S> for Sphere<S> {
             }
             return;
         }
+        if sight.place.is_none() && !sight.line.may_pass(self.center, self.radius) {
+            return;
+        }
         let ray = Local::recentred(sight.line, sight.place, self.center);
         let middle = -ray.origin.dot(ray.dir) * ray.inv_dd;
         let nearest = ray.origin + ray.dir * middle;

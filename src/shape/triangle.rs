@@ -132,8 +132,8 @@ impl<S: Scalar> Primitive<S> for Triangle {
                 check_point::<S>(normal, "normals")?;
             }
         }
-        let normal = (b - a).cross(c - a);
-        if normal.length_squared() > S::ZERO { Ok(()) } else { Err(Flaw::Empty("corners")) }
+        let normal = (b - a).normalize().cross((c - a).normalize());
+        if normal.max_abs() > S::EPSILON { Ok(()) } else { Err(Flaw::Empty("corners")) }
     }
 
     fn bounds(&self, _: Option<&Placement<S>>, points: &[S::Vec3]) -> Bounds<S> {
