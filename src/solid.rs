@@ -117,20 +117,26 @@ impl<'a, S: Scalar> Geometry<'a, S> {
         Contact { local, position: place.point(local), normal }
     }
 
-    /// How far the rounding of its parameters and of the way into its coordinates may move the
-    /// surface of a leaf along its normal, in units of [`EPSILON`](Scalar::EPSILON), and how fast a
-    /// ray goes that way; at a point of a face in the leaf's own coordinates.
+    /// How far rounding may move the surface of a leaf along its normal, in units of
+    /// [`EPSILON`](Scalar::EPSILON), and how fast a ray goes that way; at a point of a face in the
+    /// leaf's own coordinates.
+    ///
+    /// The place is rounded when it is given, when it is moved and when it is stored, at ½ each; the way
+    /// to the point goes through the entries of the placement, their products and sums, at less than 4.
     fn uncertainty(&self, line: &Line<S>, leaf: &Leaf<S>, local: S::Vec3, face: u16) -> [S; 2] {
         let magnitude = |v: S::Vec3| v.map(S::abs);
+        let reach = |from: S::Vec3, place: S::Vec3| {
+            magnitude(from) * S::from_i32(4) + magnitude(place) * S::TWO
+        };
         let normal = leaf.shape.normal(local, face, self.points);
         let Some(place) = self.placement(leaf) else {
             let normal = normal.normalize();
-            let reach = magnitude(local) + magnitude(leaf.shape.centre()) * S::TWO;
-            return [magnitude(normal).dot(reach), normal.dot(line.dir).abs()];
+            let moved = magnitude(normal).dot(reach(local, leaf.shape.centre()));
+            return [moved, normal.dot(line.dir).abs()];
         };
         let across = place.normal(normal);
         let inverse = S::ONE / across.length();
-        let reach = magnitude(place.point(local)) + magnitude(place.anchor) * S::TWO;
+        let reach = reach(apply::<S>(&place.to_world, local), place.anchor);
         let moved = magnitude(normal).dot(apply::<S>(&place.to_local.map(magnitude), reach));
         [moved * inverse, across.dot(line.dir).abs() * inverse]
     }
@@ -148,7 +154,7 @@ impl<'a, S: Scalar> Geometry<'a, S> {
         let local = leaf.shape.snap(near, boundary.face);
         let [moved, speed] = self.uncertainty(line, leaf, local, boundary.face);
         let speed = speed.max(least_speed(line));
-        (boundary.t.abs() * S::from_i32(4) + moved * S::from_i32(8) / speed) * S::EPSILON
+        (boundary.t.abs() * S::TWO + moved / speed) * S::EPSILON
     }
 
     /// Two boundaries of different leaves cannot be told apart at this precision.
@@ -177,7 +183,7 @@ impl<'a, S: Scalar> Geometry<'a, S> {
         let [moved, speed] = self.uncertainty(line, leaf, local, end.face);
         let [start_moved, _] = self.uncertainty(line, origin, start.local, start.face);
         let speed = speed.max(least_speed(line));
-        end.t.abs() * speed <= (moved + start_moved) * S::from_i32(8) * S::EPSILON
+        end.t.abs() * speed <= (moved + start_moved) * S::EPSILON
     }
 
     /// Writes the boundaries of one leaf within the window from `top` on; inside at the start

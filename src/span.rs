@@ -242,7 +242,12 @@ pub(crate) fn drop_slivers<S: Scalar>(
     for index in 0..list.len() {
         let Some(&next) = list.get(index) else { break };
         let last = out.checked_sub(1).and_then(|last| list.get(last)).copied();
-        let sliver = last.filter(|last| last.node != next.node && coincide(last, &next));
+        let close = |a: &Boundary<S>, b: &Boundary<S>| a.node != b.node && coincide(a, b);
+        // Of two slivers side by side the thinner one is the one that rounding made.
+        let sliver = last.filter(|last| close(last, &next)).filter(|last| {
+            let further = list.get(index + 1);
+            further.is_none_or(|f| next.t - last.t <= f.t - next.t || !close(&next, f))
+        });
         let at = match sliver {
             None => {
                 out += 1;
