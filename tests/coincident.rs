@@ -196,7 +196,7 @@ fn seams<S: Scalar>(rays: u32) -> (u32, u32) {
             for _ in 0..rays {
                 let point = [random.between(-0.4, 0.4), y, random.between(-0.4, 0.4)];
                 let steepness = 10_f64.powf(random.between(-3.0, 0.0)).max(grazing);
-                let distance = random.between(0.0, 20.0);
+                let distance = random.between(0.5, 20.0);
                 let ray = ray_at(&affine, point, distance, steepness, &mut random);
                 let (inside, boundaries) = spans(&union, ray);
                 // In and out again, or only out.
@@ -289,7 +289,7 @@ fn tops<S: Scalar>(size: u32) -> (u32, u32) {
             eye: affine.point(at(0.5, 3.0, 4.0)),
             look_at: affine.point(at(0.0, 0.3, 0.0)),
             up: up.normalize(),
-            projection: Projection::Pinhole { fov: number(7.0) },
+            projection: Projection::Pinhole { fov: number(4.0) },
         };
         let scene = scene.scene().unwrap();
         let render: Render<S> = Render::new(&scene, size, size, Depth::fixed(1)).unwrap();
