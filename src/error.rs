@@ -225,7 +225,8 @@ pub enum SceneError {
 }
 
 impl SceneError {
-    pub(crate) fn of_flaw(at: Item, flaw: Flaw) -> Self {
+    /// What is wrong with a leaf; `index` is the last point it names, `len` how many there are.
+    pub(crate) fn of_flaw(at: Item, flaw: Flaw, index: u32, len: u32) -> Self {
         match flaw {
             Flaw::NotFinite(field) => Self::NotFinite { at, field },
             Flaw::NotPositive(field) => Self::NotPositive { at, field },
@@ -235,7 +236,7 @@ impl SceneError {
             Flaw::NotPlanar(field) => Self::NotPlanar { at, field },
             Flaw::OffCentre(field) => Self::OffCentre { at, field },
             Flaw::Placed(_) => Self::Placed { at },
-            Flaw::Index(table) => Self::IndexOutOfRange { at, table, index: u32::MAX, len: 0 },
+            Flaw::Index(_) => Self::IndexOutOfRange { at, table: "points", index, len },
         }
     }
 
@@ -271,11 +272,8 @@ impl fmt::Display for SceneError {
             Self::OffCentre { at, field } => {
                 write!(f, "{at}: {field} of a placed shape must be the local origin")
             }
-            Self::IndexOutOfRange { at, table, index, len } if *len > 0 => {
+            Self::IndexOutOfRange { at, table, index, len } => {
                 write!(f, "{at}: index {index} is beyond the {len} entries of {table}")
-            }
-            Self::IndexOutOfRange { at, table, .. } => {
-                write!(f, "{at}: an index lies beyond the end of {table}")
             }
             Self::TextureOrder { at, names } => {
                 write!(f, "{at}: names texture {names}, but may only name earlier ones")

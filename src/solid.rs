@@ -5,11 +5,15 @@
 //! empty left operand ends an intersection or a difference, and every further operand is
 //! only looked at where the ones before it left something.
 
-use crate::place::Placement;
-use crate::ray::Line;
+use crate::place::{Placement, apply};
+use crate::ray::{Line, Start};
 use crate::scalar::{Scalar, Vector};
 use crate::shape::{Shape, Sight};
-use crate::span::{Boundary, End, Operator, Passage, Spans, merge};
+use crate::span::{Boundary, End, Operator, Passage, Spans, drop_slivers, is_neutral, merge};
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test may panic")]
+mod twin;
 
 /// How deep operators may be nested.
 pub const NESTING_MAX: usize = 16;
@@ -60,16 +64,18 @@ pub(crate) struct Geometry<'a, S: Scalar> {
 
 /// An operator whose operands are being evaluated.
 #[derive(Clone, Copy)]
-struct Frame<S> {
+struct Frame {
     operator: Operator,
     /// The node after its last operand.
     end: usize,
     /// Where its result begins in the buffer.
     base: usize,
-    /// The part of the ray that its own result is asked for.
-    window: [S; 2],
     /// What the operands so far make: inside at the start, and how many boundaries.
     result: Option<(bool, usize)>,
+}
+
+impl Frame {
+    const VACANT: Self = Self { operator: Operator::Union, end: 0, base: 0, result: None };
 }
 
 impl<'a, S: Scalar> Geometry<'a, S> {
@@ -109,80 +115,113 @@ impl<'a, S: Scalar> Geometry<'a, S> {
             let normal = shape.normal(local, end.face, self.points).normalize();
             return Contact { local, position: local + centre, normal };
         };
-        let near = crate::place::apply::<S>(&place.to_local, line.recentred(place.anchor, end.t));
+        let near = apply::<S>(&place.to_local, line.recentred(place.anchor, end.t));
         let local = shape.snap(near, end.face);
         let normal = place.normal(shape.normal(local, end.face, self.points)).normalize();
         Contact { local, position: place.point(local), normal }
     }
 
-    /// How far rounding may have moved a boundary along the ray: its share of t, and what an
-    /// error in the position of the surface makes of it at this angle.
-    fn slack(&self, line: &Line<S>, node: u32, end: End<S>) -> S {
-        let Some(leaf) = self.leaf(node) else {
+    /// How far rounding may move the surface of a leaf along its normal, in units of
+    /// [`EPSILON`](Scalar::EPSILON), and how fast a ray goes that way; at a point of a face in the
+    /// leaf's own coordinates.
+    ///
+    /// The place is rounded when it is given, when it is moved and when it is stored, at ½ each; the way
+    /// to the point goes through the entries of the placement, their products and sums, at less than 4.
+    fn uncertainty(&self, line: &Line<S>, leaf: &Leaf<S>, local: S::Vec3, face: u16) -> [S; 2] {
+        let magnitude = |v: S::Vec3| v.map(S::abs);
+        let reach = |from: S::Vec3, place: S::Vec3| {
+            magnitude(from) * S::from_i32(4) + magnitude(place) * S::TWO
+        };
+        let normal = leaf.shape.normal(local, face, self.points);
+        let Some(place) = self.placement(leaf) else {
+            let normal = normal.normalize();
+            let moved = magnitude(normal).dot(reach(local, leaf.shape.centre()));
+            return [moved, normal.dot(line.dir).abs()];
+        };
+        let across = place.normal(normal);
+        let inverse = S::ONE / across.length();
+        let reach = reach(apply::<S>(&place.to_world, local), place.anchor);
+        let moved = magnitude(normal).dot(apply::<S>(&place.to_local.map(magnitude), reach));
+        [moved * inverse, across.dot(line.dir).abs() * inverse]
+    }
+
+    /// How far rounding may have moved a boundary along the ray: its share of t, and what the
+    /// uncertain place of the surface makes of it at this angle.
+    fn slack(&self, line: &Line<S>, boundary: &Boundary<S>) -> S {
+        let Some(leaf) = self.leaf(boundary.node) else {
             return S::ZERO;
         };
-        let contact = self.contact(line, leaf, end);
-        let bounds = leaf.shape.bounds(self.placement(leaf), self.points);
-        let size = if bounds.is_finite() {
-            bounds.min.max_abs().max(bounds.max.max_abs())
-        } else {
-            contact.position.max_abs()
+        let near = match self.placement(leaf) {
+            None => line.recentred(leaf.shape.centre(), boundary.t),
+            Some(place) => apply::<S>(&place.to_local, line.recentred(place.anchor, boundary.t)),
         };
-        let scale = size.max(line.origin.max_abs());
-        let least = S::EPSILON_ROOT * line.dd.sqrt();
-        let speed = contact.normal.dot(line.dir).abs().max(least);
-        (end.t.abs() * S::from_i32(4) + scale * S::from_i32(8) / speed) * S::EPSILON
+        let local = leaf.shape.snap(near, boundary.face);
+        let [moved, speed] = self.uncertainty(line, leaf, local, boundary.face);
+        let speed = speed.max(least_speed(line));
+        (boundary.t.abs() * S::TWO + moved / speed) * S::EPSILON
     }
 
     /// Two boundaries of different leaves cannot be told apart at this precision.
     fn coincide(&self, line: &Line<S>, a: &Boundary<S>, b: &Boundary<S>) -> bool {
         let gap = (a.t - b.t).abs();
-        let reach = a.t.abs() + line.origin.max_abs();
-        if !(gap <= reach * S::EPSILON_ROOT * S::from_i32(16)) {
+        if !(gap <= tie_max(line, a.t.abs().max(b.t.abs()))) {
             return false;
         }
-        let slack = |x: &Boundary<S>| self.slack(line, x.node, End { t: x.t, face: x.face });
-        gap <= slack(a) + slack(b)
+        gap == S::ZERO || gap <= self.slack(line, a) + self.slack(line, b)
     }
 
     /// The boundary of a leaf right at the start of a ray that begins on another leaf of the
     /// same solid: rounding put it before or behind, and it counts as met at the start.
-    fn at_start(&self, line: &Line<S>, node: u32, end: End<S>) -> bool {
-        let reach = line.origin.max_abs() * S::EPSILON_ROOT * S::from_i32(16);
-        end.t.abs() <= reach && end.t.abs() <= self.slack(line, node, end) * S::TWO
+    fn at_start(&self, line: &Line<S>, start: &Start<S>, leaf: &Leaf<S>, end: End<S>) -> bool {
+        if !(end.t.abs() <= tie_max(line, end.t.abs())) {
+            return false;
+        }
+        let Some(origin) = self.leaf(start.node) else {
+            return false;
+        };
+        let near = match self.placement(leaf) {
+            None => line.origin - leaf.shape.centre(),
+            Some(place) => apply::<S>(&place.to_local, line.origin - place.anchor),
+        };
+        let local = leaf.shape.snap(near, end.face);
+        let [moved, speed] = self.uncertainty(line, leaf, local, end.face);
+        let [start_moved, _] = self.uncertainty(line, origin, start.local, start.face);
+        let speed = speed.max(least_speed(line));
+        end.t.abs() * speed <= (moved + start_moved) * S::EPSILON
     }
 
     /// Writes the boundaries of one leaf within the window from `top` on; inside at the start
     /// of the window, and how many.
     fn leaf_boundaries(
         &self,
-        node: u32,
-        leaf: &Leaf<S>,
-        (line, own_start): (&Line<S>, bool),
-        window: [S; 2],
+        (node, leaf): (u32, &Leaf<S>),
+        (line, start): (&Line<S>, Option<&Start<S>>),
+        [low, high]: [S; 2],
         buffer: &mut [Boundary<S>],
         top: usize,
     ) -> (bool, usize) {
-        let (mut inside, mut len) = (false, 0);
+        let (mut inside, mut len) = (false, 0_usize);
         let sight = self.sight(node, leaf, line);
-        let settle = own_start && sight.start.is_none();
-        let [low, high] = window;
+        let settle = start.filter(|start| start.node != node);
+        let open = leaf.shape.is_open();
         leaf.shape.spans(&sight, |mut span| {
-            let open = leaf.shape.is_open();
-            if settle {
-                for end in [&mut span.enter, &mut span.exit] {
-                    if self.at_start(line, node, *end) {
-                        end.t = S::ZERO;
-                    }
+            for end in [&mut span.enter, &mut span.exit] {
+                if settle.is_some_and(|start| self.at_start(line, start, leaf, *end)) {
+                    end.t = S::ZERO;
                 }
             }
             let mut push = |end: End<S>, passage: Passage| {
-                if end.t > low && end.t <= high && end.t < S::FAR {
-                    if let Some(slot) = buffer.get_mut(top + len) {
-                        *slot =
-                            Boundary { t: end.t, node, face: end.face, passage, inverted: false };
-                        len += 1;
-                    }
+                if !(end.t > low && end.t <= high && end.t < S::FAR) {
+                    return;
+                }
+                let last = len.checked_sub(1).and_then(|last| buffer.get(top + last));
+                if last.is_some_and(|last| !(last.t < end.t)) {
+                    // A span or a gap without a point.
+                    len -= 1;
+                } else if let Some(slot) = buffer.get_mut(top + len) {
+                    let End { t, face } = end;
+                    *slot = Boundary { t, node, face, passage, inverted: false };
+                    len += 1;
                 }
             };
             if open {
@@ -198,6 +237,9 @@ impl<'a, S: Scalar> Geometry<'a, S> {
 
     /// The boundaries of the solid that starts at node `first`, for t > 0.
     ///
+    /// The set operations are exact on the boundaries as the leaves give them; what an empty
+    /// operand settles is skipped. Last, what only rounding tells apart is joined.
+    ///
     /// The buffer must have the room that [`Scene::limits`](crate::scene::Scene::limits) tells.
     pub(crate) fn evaluate<'b>(
         &self,
@@ -207,15 +249,9 @@ impl<'a, S: Scalar> Geometry<'a, S> {
         buffer: &'b mut [Boundary<S>],
         mut on_leaf: impl FnMut(),
     ) -> Spans<'b, S> {
-        let own_start = line.start.is_some_and(|s| s.node >= first && s.node - first < count);
-        let vacant = Frame {
-            operator: Operator::Union,
-            end: 0,
-            base: 0,
-            window: [S::ZERO; 2],
-            result: None,
-        };
-        let mut frames = [vacant; NESTING_MAX];
+        let own = |start: &&Start<S>| start.node >= first && start.node - first < count;
+        let start = line.start.as_ref().filter(own);
+        let mut frames = [Frame::VACANT; NESTING_MAX];
         let (mut depth, mut top, mut window) = (0, 0, [S::ZERO, S::FAR]);
         let mut index = first as usize;
         loop {
@@ -225,17 +261,18 @@ impl<'a, S: Scalar> Geometry<'a, S> {
                     let result = (operator == Operator::Complement).then_some((true, 0));
                     let end = index + size as usize;
                     if let Some(frame) = frames.get_mut(depth) {
-                        *frame = Frame { operator, end, base: top, window, result };
+                        *frame = Frame { operator, end, base: top, result };
                     }
                     depth += 1;
                     index += 1;
+                    window = [S::ZERO, S::FAR];
                     continue;
                 }
                 Some(Node::Leaf(leaf)) => {
                     on_leaf();
                     let node = index as u32;
                     index += 1;
-                    self.leaf_boundaries(node, leaf, (line, own_start), window, buffer, top)
+                    self.leaf_boundaries((node, leaf), (line, start), window, buffer, top)
                 }
                 None => (false, 0),
             };
@@ -243,25 +280,20 @@ impl<'a, S: Scalar> Geometry<'a, S> {
             loop {
                 let Some(frame) = depth.checked_sub(1).and_then(|d| frames.get_mut(d)) else {
                     let (inside, len) = value;
+                    let made = buffer.get_mut(..len).unwrap_or(&mut []);
+                    let len = drop_slivers(made, |a, b| self.coincide(line, a, b));
                     return Spans { inside, boundaries: buffer.get(..len).unwrap_or(&[]) };
                 };
                 let result = match frame.result {
                     None => value,
-                    Some((inside, len)) => {
-                        let ends = [frame.base, frame.base + len, frame.base + len + value.1];
-                        let states = [inside, value.0];
-                        let merged = merge(buffer, ends, frame.operator, states, |a, b| {
-                            self.coincide(line, a, b)
-                        });
-                        (frame.operator.combine(inside, value.0), merged)
-                    }
+                    Some(left) => self.join(frame, left, value, line, buffer),
                 };
                 frame.result = Some(result);
                 let (inside, len) = result;
                 if index < frame.end && !(len == 0 && frame.operator.settled(inside)) {
                     top = frame.base + len;
                     let made = buffer.get(frame.base..top).unwrap_or(&[]);
-                    window = narrowed(frame.operator, frame.window, inside, made);
+                    window = support(frame.operator, inside, made);
                     break;
                 }
                 index = frame.end;
@@ -270,21 +302,51 @@ impl<'a, S: Scalar> Geometry<'a, S> {
             }
         }
     }
+
+    /// Combines two neighbouring lists from the base of a frame on, each with its state at the start.
+    #[inline]
+    fn join(
+        &self,
+        frame: &Frame,
+        (left, left_len): (bool, usize),
+        (right, right_len): (bool, usize),
+        line: &Line<S>,
+        buffer: &mut [Boundary<S>],
+    ) -> (bool, usize) {
+        let inside = frame.operator.combine(left, right);
+        if is_neutral(frame.operator, [left_len, right_len], [left, right]) {
+            return (inside, left_len + right_len);
+        }
+        let middle = frame.base + left_len;
+        let ends = [frame.base, middle, middle + right_len];
+        let tie = |a: &Boundary<S>, b: &Boundary<S>| self.coincide(line, a, b);
+        (inside, merge(buffer, ends, frame.operator, [left, right], tie))
+    }
 }
 
-/// The part of the window where a further operand can still change the result.
-fn narrowed<S: Scalar>(
-    operator: Operator,
-    [low, high]: [S; 2],
-    inside: bool,
-    made: &[Boundary<S>],
-) -> [S; 2] {
+/// The part of the ray where a further operand can still change the result. A boundary of
+/// the operand outside of it is never one of the result, so a leaf need not give it.
+fn support<S: Scalar>(operator: Operator, inside: bool, made: &[Boundary<S>]) -> [S; 2] {
     let (Operator::Intersection | Operator::Difference, Some(first), Some(last)) =
         (operator, made.first(), made.last())
     else {
-        return [low, high];
+        return [S::ZERO, S::FAR];
     };
-    let low = if inside { low } else { first.t };
-    let high = if last.passage == Passage::Enter { high } else { last.t };
+    let low = if inside { S::ZERO } else { first.t };
+    let high = if last.passage == Passage::Enter { S::FAR } else { last.t };
     [low, high]
+}
+
+/// How far apart along a ray two boundaries may be at most that rounding brought out of
+/// step: a cheap bound, far above most slacks, that spares their computation.
+#[inline]
+fn tie_max<S: Scalar>(line: &Line<S>, t: S) -> S {
+    let reach = t + line.origin.max_abs() / line.dir.max_abs();
+    reach * (S::EPSILON_ROOT * S::from_i32(16))
+}
+
+/// How fast a ray goes through a surface at least; at the edge of a curved one the error is a
+/// square root of the rounding, not the rounding over the speed.
+fn least_speed<S: Scalar>(line: &Line<S>) -> S {
+    line.dd.sqrt() * S::EPSILON_ROOT
 }

@@ -159,11 +159,12 @@ impl<S: Scalar> Spans<'_, S> {
 }
 
 /// Combines two neighbouring lists of one buffer, `[from, middle)` and `[middle, to)`, writes
-/// the result at `from` and gives its length.
+/// the result at `from` and gives its length. Both lists ascend strictly, and so does the result.
 ///
-/// Boundaries of the two lists that `coincide` are passed in one transition, and the left
-/// one stands for both; so touching solids join without a seam, and a hole that ends flush
-/// with a face leaves no lid.
+/// Boundaries at the same t are passed in one transition, and the left one stands for both.
+/// Where a right boundary and a left one `coincide` but for rounding, and the two together do
+/// what the right one does alone, the surface is the left one's as well: faces in one plane
+/// show the material of the first operand, not a speckle of both.
 pub(crate) fn merge<S: Scalar>(
     buffer: &mut [Boundary<S>],
     [from, middle, to]: [usize; 3],
@@ -173,55 +174,116 @@ pub(crate) fn merge<S: Scalar>(
 ) -> usize {
     let (mut left, mut right, mut out) = (from, middle, to);
     let mut inside = operator.combine(states[0], states[1]);
+    let mut passed = None;
     loop {
         let a = buffer.get(left).filter(|_| left < middle).copied();
         let b = buffer.get(right).filter(|_| right < to).copied();
-        let (source, pair) = match (a, b) {
+        let (a, b, next) = match (a, b) {
             (None, None) => break,
-            (Some(a), None) => (a, [Some(a), None]),
-            (None, Some(b)) => (b, [None, Some(b)]),
-            (Some(a), Some(b)) if a.t == b.t || coincide(&a, &b) => (a, [Some(a), Some(b)]),
-            (Some(a), Some(b)) if a.t < b.t => (a, [Some(a), None]),
-            (Some(_), Some(b)) => (b, [None, Some(b)]),
+            (Some(a), Some(b)) if a.t < b.t => (Some(a), None, None),
+            (Some(a), Some(b)) if b.t < a.t => (None, Some(b), Some(a)),
+            (a, b) => (a, b, None),
         };
-        left += usize::from(pair[0].is_some());
-        right += usize::from(pair[1].is_some());
-        let mut touch = None;
-        for (state, boundary) in states.iter_mut().zip(pair) {
-            match boundary.map(|b| b.passage) {
-                Some(Passage::Enter) => *state = true,
-                Some(Passage::Leave) => *state = false,
-                Some(Passage::Touch) => touch = touch.or(boundary),
-                None => {}
-            }
-        }
+        left += usize::from(a.is_some());
+        right += usize::from(b.is_some());
+        let before = states;
+        states = [state_after(states[0], a), state_after(states[1], b)];
         let now = operator.combine(states[0], states[1]);
         let emitted = if now != inside {
-            Some(source_of_change(source, pair).turned(if now {
-                Passage::Enter
-            } else {
-                Passage::Leave
-            }))
+            let source = closed(a).or_else(|| {
+                let b = closed(b)?;
+                // The left boundary just before or after does the same together with this one.
+                let same = |a: &Boundary<S>| coincide(a, &b);
+                let earlier = closed(passed)
+                    .filter(|a| operator.combine(a.passage == Passage::Leave, before[1]) == inside);
+                let later = closed(next)
+                    .filter(|a| operator.combine(a.passage == Passage::Enter, states[1]) == now);
+                let stand_in = earlier.filter(same).or_else(|| later.filter(same));
+                Some(stand_in.map_or(b, |a| Boundary { t: b.t, ..a }))
+            });
+            source.map(|b| b.turned(if now { Passage::Enter } else { Passage::Leave }))
         } else if now {
             None
         } else {
-            touch
+            open(a).or(open(b))
         };
         inside = now;
+        passed = a.or(passed);
         if let (Some(boundary), Some(slot)) = (emitted, buffer.get_mut(out)) {
             *slot = boundary;
             out += 1;
         }
     }
-    let length = out - to;
-    if from != to {
-        buffer.copy_within(to..out, from);
-    }
-    length
+    buffer.copy_within(to..out, from);
+    out - to
 }
 
-/// The surface that stands for a change of membership: not an open one where a closed one is at hand.
-fn source_of_change<S: Scalar>(source: Boundary<S>, pair: [Option<Boundary<S>>; 2]) -> Boundary<S> {
-    let closed = |b: &Boundary<S>| b.passage != Passage::Touch;
-    pair.into_iter().flatten().find(closed).unwrap_or(source)
+/// The one operand has no boundaries and leaves those of the other as they are.
+#[inline]
+pub(crate) fn is_neutral(operator: Operator, [left, right]: [usize; 2], states: [bool; 2]) -> bool {
+    match operator {
+        Operator::Union | Operator::Xor => (right == 0 && !states[1]) || (left == 0 && !states[0]),
+        Operator::Intersection => (right == 0 && states[1]) || (left == 0 && states[0]),
+        Operator::Difference => right == 0 && !states[1],
+        Operator::Complement => false,
+    }
+}
+
+/// Drops the spans and gaps that only rounding makes, so that a hole that ends flush with a
+/// face leaves no lid and solids that touch join without a seam; gives the new length.
+///
+/// Such a sliver lies between boundaries of different leaves that `coincide`. An open surface
+/// gives way to a closed one, and of two open ones that with the lower index stays.
+pub(crate) fn drop_slivers<S: Scalar>(
+    list: &mut [Boundary<S>],
+    coincide: impl Fn(&Boundary<S>, &Boundary<S>) -> bool,
+) -> usize {
+    let mut out = 0_usize;
+    for index in 0..list.len() {
+        let Some(&next) = list.get(index) else { break };
+        let last = out.checked_sub(1).and_then(|last| list.get(last)).copied();
+        let close = |a: &Boundary<S>, b: &Boundary<S>| a.node != b.node && coincide(a, b);
+        // Of two slivers side by side the thinner one is the one that rounding made.
+        let sliver = last.filter(|last| close(last, &next)).filter(|last| {
+            let further = list.get(index + 1);
+            further.is_none_or(|f| next.t - last.t <= f.t - next.t || !close(&next, f))
+        });
+        let at = match sliver {
+            None => {
+                out += 1;
+                out - 1
+            }
+            Some(last) => match (closed(Some(last)), closed(Some(next))) {
+                (Some(_), Some(_)) => {
+                    out -= 1;
+                    continue;
+                }
+                (Some(_), None) => continue,
+                (None, None) if last.node < next.node => continue,
+                (None, _) => out - 1,
+            },
+        };
+        if let Some(slot) = list.get_mut(at) {
+            *slot = next;
+        }
+    }
+    out
+}
+
+fn state_after<S>(state: bool, boundary: Option<Boundary<S>>) -> bool {
+    match boundary.map(|b| b.passage) {
+        Some(Passage::Enter) => true,
+        Some(Passage::Leave) => false,
+        Some(Passage::Touch) | None => state,
+    }
+}
+
+#[inline]
+fn closed<S>(boundary: Option<Boundary<S>>) -> Option<Boundary<S>> {
+    boundary.filter(|b| b.passage != Passage::Touch)
+}
+
+#[inline]
+fn open<S>(boundary: Option<Boundary<S>>) -> Option<Boundary<S>> {
+    boundary.filter(|b| b.passage == Passage::Touch)
 }

@@ -155,8 +155,16 @@ pub struct SceneBuilder<S: Scalar, M: Storage = Fixed<16, 64, 16, 64>> {
     lights: M::Materials<Light<S>>,
     points: M::Points<S::Vec3>,
     open: heapless::Vec<u32, NESTING_MAX>,
-    /// The first node of the object that is being put together.
-    first: u32,
+    /// The entries of the tables that belong to finished objects.
+    finished: Finished,
+}
+
+/// How long the tables were when the last object was finished.
+#[derive(Clone, Copy, Debug, Default)]
+struct Finished {
+    nodes: usize,
+    placements: usize,
+    points: usize,
 }
 
 impl<S: Scalar, M: Storage> Default for SceneBuilder<S, M> {
@@ -207,7 +215,7 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
             lights: Default::default(),
             points: Default::default(),
             open: heapless::Vec::new(),
-            first: 0,
+            finished: Finished::default(),
         }
     }
 
@@ -242,19 +250,23 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
     pub fn placement(&mut self, to_world: &Affine<S>) -> Result<u16, SceneError> {
         let at = Item::Placement(self.placements.entries().len() as u32);
         let placement = Placement::new(to_world).ok_or(SceneError::SingularPlacement { at })?;
-        add_narrow(&mut self.placements, "placements", placement)
+        let index = add_narrow(&mut self.placements, "placements", placement)?;
+        // It belongs to no object, so no refused object may take it along.
+        self.finished.placements = self.placements.entries().len();
+        Ok(index)
     }
 
     /// Begins an operator; what follows until it is closed are its operands.
     ///
     /// # Errors
-    /// If operators are nested too deeply, or if there is no room for it.
+    /// If operators are nested too deeply, or if there is no room for it; then the object that
+    /// it is a part of is taken back.
     pub fn open(&mut self, operator: Operator) -> Result<(), SceneError> {
-        let index = self.nodes.entries().len() as u32;
-        if self.open.push(index).is_err() {
-            return Err(SceneError::TooDeep { at: Item::Node(index), limit: NESTING_MAX as u32 });
-        }
-        add(&mut self.nodes, "nodes", Node::Operator { operator, size: 0 }).map(|_| ())
+        let at = Item::Node(self.nodes.entries().len() as u32);
+        let deep = SceneError::TooDeep { at, limit: NESTING_MAX as u32 };
+        let added = add(&mut self.nodes, "nodes", Node::Operator { operator, size: 0 });
+        let opened = added.and_then(|index| self.open.push(index).map_err(|_| deep));
+        opened.inspect_err(|_| self.take_back())
     }
 
     /// Ends the operator that was begun last. The object, if this is the end of one, is filled
@@ -325,8 +337,8 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
         if !self.open.is_empty() {
             return Ok(());
         }
-        let end = self.nodes.entries().len() as u32;
-        let mut object = Object::new(self.first, end - self.first, material);
+        let (first, end) = (self.finished.nodes, self.nodes.entries().len());
+        let mut object = Object::new(first as u32, (end - first) as u32, material);
         let index = self.objects.entries().len() as u32;
         let result = check_object(&self.parts(), index, &object).and_then(|needs| {
             let bounds = needs.bounds;
@@ -336,7 +348,11 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
         });
         match result {
             Ok(_) => {
-                self.first = end;
+                self.finished = Finished {
+                    nodes: end,
+                    placements: self.placements.entries().len(),
+                    points: self.points.entries().len(),
+                };
                 Ok(())
             }
             Err(error) => {
@@ -360,9 +376,11 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
             )
     }
 
-    /// Drops the object that is being put together.
+    /// Drops the object that is being put together, with its placements and vertices.
     fn take_back(&mut self) {
-        self.nodes.truncate(self.first as usize);
+        self.nodes.truncate(self.finished.nodes);
+        self.placements.truncate(self.finished.placements);
+        self.points.truncate(self.finished.points);
         self.open.clear();
     }
 

@@ -1,5 +1,6 @@
 //! The one place where a scene is checked; after it nothing can fail.
 
+use super::structure::{Structure, object_structure};
 use super::{Limits, Object, Parts};
 use crate::background::Background;
 use crate::bounds::Bounds;
@@ -9,6 +10,7 @@ use crate::light::{Attenuation, Light};
 use crate::material::{Fresnel, Material};
 use crate::place::{Placement, apply};
 use crate::scalar::{Axis, Scalar, Vector};
+use crate::shape::{Shape, Triangle};
 use crate::solid::{Leaf, NESTING_MAX, Node};
 use crate::span::Operator;
 use crate::texture::{Paint, Texture};
@@ -33,171 +35,102 @@ pub(super) fn check<S: Scalar>(parts: &Parts<'_, S>) -> Result<Limits<S>, SceneE
     let (mut boundaries, mut widest, mut crossings) = (0, 0, 0_u32);
     for (index, object) in (0..).zip(parts.objects) {
         let needs = check_object(parts, index, object)?;
-        if needs.boundaries > boundaries {
-            (boundaries, widest) = (needs.boundaries, index);
+        if needs.structure.boundaries > boundaries {
+            (boundaries, widest) = (needs.structure.boundaries, index);
         }
-        crossings = crossings.saturating_add(needs.crossings);
+        crossings = crossings.saturating_add(needs.structure.crossings);
     }
     Ok(Limits { boundaries, widest, crossings, ..reach(parts) })
 }
 
 /// What one object needs.
 pub(super) struct Needs<S: Scalar> {
-    pub(super) boundaries: u32,
-    pub(super) crossings: u32,
+    pub(super) structure: Structure,
     pub(super) bounds: Bounds<S>,
 }
 
-/// An operator whose operands are being counted.
+/// An operator whose operands are being taken together.
 #[derive(Clone, Copy)]
 struct Open<S: Scalar> {
     operator: Operator,
-    node: u32,
     end: u32,
-    operands: u32,
-    bounds: Bounds<S>,
+    bounds: Option<Bounds<S>>,
 }
 
 impl<S: Scalar> Open<S> {
-    fn take(&mut self, bounds: &Bounds<S>) {
-        self.bounds = match (self.operator, self.operands) {
+    fn take(&mut self, operand: &Bounds<S>) {
+        self.bounds = Some(match (self.operator, self.bounds) {
             (Operator::Complement, _) => Bounds::everywhere(),
-            (_, 0) => *bounds,
-            (Operator::Union | Operator::Xor, _) => self.bounds.union(bounds),
-            (Operator::Intersection, _) => self.bounds.intersection(bounds),
-            (Operator::Difference, _) => self.bounds,
-        };
-        self.operands += 1;
-    }
-
-    fn check_operands(&self) -> Result<(), SceneError> {
-        let (at, operands) = (Item::Node(self.node), self.operands);
-        if operands == 0 {
-            Err(SceneError::OperandUnderflow { at, operands, least: 1 })
-        } else if self.operator == Operator::Complement && operands > 1 {
-            Err(SceneError::OperandOverflow { at, most: 1 })
-        } else {
-            Ok(())
-        }
+            (_, None) => *operand,
+            (Operator::Union | Operator::Xor, Some(bounds)) => bounds.union(operand),
+            (Operator::Intersection, Some(bounds)) => bounds.intersection(operand),
+            (Operator::Difference, Some(bounds)) => bounds,
+        });
     }
 }
 
-/// Walks the nodes of one object: they must be exactly one well-formed solid.
+/// Walks the nodes of one object: they must be exactly one well-formed solid of legal leaves.
 pub(super) fn check_object<S: Scalar>(
     parts: &Parts<'_, S>,
     index: u32,
     object: &Object<S>,
 ) -> Result<Needs<S>, SceneError> {
-    let at = Item::Object(index);
-    let len = parts.nodes.len() as u32;
-    let end = object.first.checked_add(object.count).filter(|&end| end <= len);
-    let end = end.ok_or(SceneError::IndexOutOfRange {
-        at,
-        table: "nodes",
-        index: object.first.saturating_add(object.count),
-        len,
-    })?;
-    check_material_index(parts, at, object.material)?;
-
+    let (materials, placements) = (parts.materials.len(), parts.placements.len());
+    let structure = object_structure(parts.nodes, index, object, materials, placements)?;
     let mut open: heapless::Vec<Open<S>, NESTING_MAX> = heapless::Vec::new();
-    let mut finished = None;
-    let (mut crossings, mut operators) = (0_u32, false);
-    for node in object.first..end {
-        if finished.is_some() {
-            return Err(SceneError::StrayNodes { at, node });
-        }
-        let mut bounds = match parts.nodes.get(node as usize) {
+    let mut bounds = Bounds::nothing();
+    for node in object.first..object.first + object.count {
+        let leaf = match parts.nodes.get(node as usize) {
             Some(&Node::Operator { operator, size }) => {
-                operators = true;
-                let limit = open.last().map_or(end, |outer| outer.end);
-                let end = node.checked_add(size).filter(|&end| size > 0 && end <= limit);
-                let end = end.ok_or(SceneError::OperatorSize { at: Item::Node(node), size })?;
-                let bounds = Bounds::nothing();
-                let opened = Open { operator, node, end, operands: 0, bounds };
-                if open.push(opened).is_err() {
-                    let limit = NESTING_MAX as u32;
-                    return Err(SceneError::TooDeep { at: Item::Node(node), limit });
-                }
-                if end > node + 1 {
-                    continue;
-                }
-                // No room for an operand: falls through to the count below.
-                open.pop().map_or(Ok(()), |inner| inner.check_operands())?;
+                // There is room: the structure is checked.
+                let _ = open.push(Open { operator, end: node + size, bounds: None });
                 continue;
             }
-            Some(Node::Leaf(leaf)) => {
-                let operator = open.iter().map(|o| o.operator).find(|&o| o != Operator::Union);
-                crossings = crossings.saturating_add(2 * u32::from(leaf.shape.spans_max()));
-                check_leaf(parts, node, leaf, operator)?
-            }
-            None => return Err(SceneError::StrayNodes { at, node }),
+            Some(Node::Leaf(leaf)) => leaf,
+            None => continue,
         };
+        bounds = check_leaf(parts, node, leaf)?;
         // The leaf ends every operator that ends with it.
-        loop {
-            let Some(inner) = open.last_mut() else {
-                finished = Some(bounds);
-                break;
-            };
+        while let Some(inner) = open.last_mut() {
             inner.take(&bounds);
             if inner.end > node + 1 {
                 break;
             }
-            inner.check_operands()?;
-            bounds = inner.bounds;
+            bounds = inner.bounds.unwrap_or(bounds);
             open.pop();
         }
     }
-    let bounds = finished.ok_or(SceneError::StrayNodes { at, node: end })?;
     if object.bounds.is_some_and(|stated| stated.union(&bounds) != stated) {
-        return Err(SceneError::BoundsTooSmall { at });
+        return Err(SceneError::BoundsTooSmall { at: Item::Object(index) });
     }
-    // A merge reads two lists and writes a third that is no longer than both.
-    let boundaries = crossings.saturating_mul(if operators { 2 } else { 1 });
-    let limit = u32::from(u16::MAX);
-    if boundaries > limit {
-        return Err(SceneError::SpanOverflow { at, needed: boundaries, limit });
-    }
-    Ok(Needs { boundaries, crossings, bounds })
+    Ok(Needs { structure, bounds })
 }
 
+/// Checks the numbers of a leaf whose indices are known to be legal.
 fn check_leaf<S: Scalar>(
     parts: &Parts<'_, S>,
     node: u32,
     leaf: &Leaf<S>,
-    operator: Option<Operator>,
 ) -> Result<Bounds<S>, SceneError> {
-    let at = Item::Node(node);
-    check_material_index(parts, at, leaf.material)?;
-    if let (true, Some(operator)) = (leaf.shape.is_open(), operator) {
-        return Err(SceneError::OpenSurface { at, operator });
-    }
-    let place = match leaf.placement {
-        None => None,
-        Some(index) => {
-            let found = parts.placements.get(usize::from(index));
-            Some(found.ok_or(SceneError::IndexOutOfRange {
-                at,
-                table: "placements",
-                index: u32::from(index),
-                len: parts.placements.len() as u32,
-            })?)
-        }
-    };
+    let place = leaf.placement.and_then(|index| parts.placements.get(usize::from(index)));
     let flaw = leaf.shape.check(place.is_some(), parts.points);
-    flaw.map_err(|flaw| SceneError::of_flaw(at, flaw))?;
+    flaw.map_err(|flaw| {
+        let (last, len) = (last_point(&leaf.shape), parts.points.len() as u32);
+        SceneError::of_flaw(Item::Node(node), flaw, last, len)
+    })?;
     Ok(leaf.shape.bounds(place, parts.points))
 }
 
-fn check_material_index<S: Scalar>(
-    parts: &Parts<'_, S>,
-    at: Item,
-    index: u16,
-) -> Result<(), SceneError> {
-    let len = parts.materials.len() as u32;
-    if u32::from(index) < len {
-        return Ok(());
+/// The greatest index of a point that a shape names.
+fn last_point<S: Scalar>(shape: &Shape<S>) -> u32 {
+    match shape {
+        Shape::Triangle(Triangle { corners: [a, b, c], normals }) => {
+            let last = *a.max(b).max(c);
+            if *normals == Triangle::FLAT { last } else { last.max(normals.saturating_add(2)) }
+        }
+        Shape::Polygon(polygon) => polygon.first.saturating_add(polygon.count.saturating_sub(1)),
+        _ => 0,
     }
-    Err(SceneError::IndexOutOfRange { at, table: "materials", index: u32::from(index), len })
 }
 
 fn check_placement<S: Scalar>(at: Item, placement: &Placement<S>) -> Result<(), SceneError> {

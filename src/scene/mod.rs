@@ -2,9 +2,11 @@
 
 mod build;
 mod check;
+mod structure;
 mod trace;
 
 pub use build::{Fixed, Form, SceneBuilder, Storage, Store};
+pub use structure::{Structure, structure};
 pub use trace::Hit;
 
 use crate::background::Background;
