@@ -214,8 +214,15 @@ pub(crate) fn merge<S: Scalar>(
             out += 1;
         }
     }
-    buffer.copy_within(to..out, from);
-    out - to
+    let length = out - to;
+    // Down to `from`, one by one: a copy of a range would bring a panic into the firmware.
+    for offset in 0..length {
+        let moved = buffer.get(to + offset).copied();
+        if let (Some(boundary), Some(slot)) = (moved, buffer.get_mut(from + offset)) {
+            *slot = boundary;
+        }
+    }
+    length
 }
 
 /// The one operand has no boundaries and leaves those of the other as they are.
