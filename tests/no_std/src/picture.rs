@@ -1,0 +1,93 @@
+//! A picture with a bit of everything, and its digest; the same file is compiled for the
+//! bare program and for the test that compares the two.
+
+use nostray::{
+    Affine, Attenuation, Axis, Checker, Depth, Fixed, Form, Fresnel, Light, Mapping, Material,
+    Operator, Paint, Render, Rgb, Scalar, SceneBuilder, SceneError, Spotlight, Texture, Vector,
+};
+
+type Builder<S> = SceneBuilder<S, Fixed<8, 16, 8, 8>>;
+
+const WIDTH: u32 = 48;
+const HEIGHT: u32 = 36;
+
+/// FNV-1a (Fowler, Noll, Vo) over the bits of the light of every pixel.
+pub(crate) fn digest<S: Scalar>() -> Result<u64, SceneError> {
+    let builder = build::<S>()?;
+    let scene = builder.scene()?;
+    let render: Render<S, 7, 32> = Render::new(&scene, WIDTH, HEIGHT, Depth::fixed(6))?;
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    for pixel in render {
+        for part in pixel.color.to_array() {
+            for &byte in part.to_le_bytes().as_ref() {
+                hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+            }
+        }
+    }
+    Ok(hash)
+}
+
+fn tenths<S: Scalar>(x: i32, y: i32, z: i32) -> S::Vec3 {
+    S::Vec3::new(S::from_ratio(x, 10), S::from_ratio(y, 10), S::from_ratio(z, 10))
+}
+
+fn rgb<S: Scalar>(r: i32, g: i32, b: i32) -> Rgb<S> {
+    Rgb::new(S::from_ratio(r, 10), S::from_ratio(g, 10), S::from_ratio(b, 10))
+}
+
+fn build<S: Scalar>() -> Result<Builder<S>, SceneError> {
+    let mut scene = Builder::<S>::new();
+    scene.ambient = rgb(1, 1, 1);
+    scene.camera.eye = tenths::<S>(0, 30, 70);
+    let paints = [Paint::Solid(rgb(9, 9, 8)), Paint::Solid(rgb(1, 2, 2))];
+    let size = tenths::<S>(10, 10, 10);
+    let checker = Checker { paints, size, mapping: Mapping::Solid, placement: None };
+    let checker = scene.texture(Texture::Checker(checker))?;
+    let floor = scene.material(Material {
+        color: Paint::Texture(checker),
+        reflect: S::from_ratio(1, 5),
+        ..Material::matte(Rgb::WHITE)
+    })?;
+    let red = scene.material(Material { specular: S::HALF, ..Material::matte(rgb(9, 2, 1)) })?;
+    let glass = scene.material(Material {
+        diffuse: S::ZERO,
+        transmit: S::ONE,
+        ior: S::from_ratio(3, 2),
+        fresnel: Fresnel::Exact,
+        absorb: rgb(4, 1, 3),
+        ..Material::matte(Rgb::WHITE)
+    })?;
+    light(&mut scene)?;
+    let here = Affine::identity();
+    let normal = tenths::<S>(0, 10, 0);
+    scene.leaf(Form::Plane { normal, offset: S::from_ratio(-11, 10) }, &here, floor)?;
+    scene.leaf(Form::Sphere { center: tenths::<S>(14, 0, 8), radius: S::ONE }, &here, glass)?;
+    scene.open(Operator::Difference)?;
+    let turned = Affine::rotate(Axis::Y, S::from_i32(30));
+    let cube = Form::Box { min: tenths::<S>(-10, -10, -10), max: tenths::<S>(10, 10, 10) };
+    scene.leaf(cube, &turned.then(&Affine::translate(tenths::<S>(-10, 0, 0))), red)?;
+    let (base, top) = (tenths::<S>(-10, -20, 0), tenths::<S>(-10, 20, 0));
+    scene.leaf(Form::Cylinder { base, top, radius: S::HALF }, &here, glass)?;
+    scene.leaf(Form::Sphere { center: tenths::<S>(-6, 8, 8), radius: S::HALF }, &here, floor)?;
+    scene.close(red)?;
+    let corners = [tenths::<S>(-30, -10, -20), tenths::<S>(30, -10, -20), tenths::<S>(0, 25, -25)];
+    scene.leaf(Form::Triangle { corners, normals: None }, &here, red)?;
+    let base_radius = S::from_ratio(6, 10);
+    let (base, top) = (tenths::<S>(4, -11, -8), tenths::<S>(6, 9, -8));
+    scene.leaf(Form::Cone { base, base_radius, top, top_radius: S::ZERO }, &here, floor)?;
+    Ok(scene)
+}
+
+fn light<S: Scalar>(scene: &mut Builder<S>) -> Result<(), SceneError> {
+    let attenuation =
+        Attenuation { constant: S::ONE, linear: S::ZERO, quadratic: S::from_ratio(1, 50) };
+    scene.light(Light::Point { at: tenths::<S>(-30, 50, 40), color: Rgb::WHITE, attenuation })?;
+    let at = tenths::<S>(40, 60, 30);
+    let cone = Spotlight {
+        axis: (-at).normalize(),
+        cos_inner: S::from_ratio(98, 100),
+        cos_outer: S::from_ratio(9, 10),
+    };
+    let attenuation = Attenuation::NONE;
+    scene.light(Light::Spot { at, cone, color: rgb(8, 7, 5), attenuation })
+}
