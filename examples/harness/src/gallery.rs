@@ -35,12 +35,24 @@ macro_rules! file {
 
 /// All scenes, the default one first.
 pub static GALLERY: &[Entry] = &[
-    file!("showcase", "solids, glass and mirrors on a checkered floor"),
+    file!(
+        "showcase",
+        "a still life: mirror, glass, wine, cut solids and checkers under a spot light"
+    ),
+    file!("checker", "checkers over surfaces and through solids, nested"),
+    file!("dice", "three dice, each a rounded cube less 21 balls"),
+    file!("glass", "a ball, a hollow ball, a block and a bowl of clear and coloured glass"),
+    file!("lens", "a reading glass over a printed page"),
+    file!("lights", "a spot, a lamp and the moon; coloured glass stains the light"),
+    file!("links", "three links that only hold together as three"),
+    file!("mirrors", "two mirrors that face each other"),
+    file!("solids", "one of each solid"),
     Entry {
         name: "sphereflake",
         description: "820 mirroring spheres, made at run time",
         origin: Origin::Made(|| sphereflake(3)),
     },
+    file!("stress", "thin wires before a far planet, through a telescope of one degree"),
 ];
 
 /// The entry of a name.
