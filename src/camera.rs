@@ -41,6 +41,11 @@ pub(crate) enum CameraFlaw {
 }
 
 impl<S: Scalar> Camera<S> {
+    /// A pinhole at `eye`, with its full vertical angle in degrees.
+    pub const fn pinhole(eye: S::Vec3, look_at: S::Vec3, up: S::Vec3, fov: S) -> Self {
+        Self { eye, look_at, up, projection: Projection::Pinhole { fov } }
+    }
+
     pub(crate) fn check(&self) -> Result<(), CameraFlaw> {
         for (v, field) in [(self.eye, "eye"), (self.look_at, "look_at"), (self.up, "up")] {
             if !v.is_finite() {

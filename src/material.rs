@@ -60,6 +60,22 @@ pub struct Material<S: Scalar> {
 }
 
 impl<S: Scalar> Material<S> {
+    /// White, ka 1, kd 1 and nothing else: what the materials of a `static` scene start from.
+    pub const PLAIN: Self = Self {
+        color: Paint::Solid(Rgb::WHITE),
+        ambient: S::ONE,
+        diffuse: S::ONE,
+        specular: S::ZERO,
+        shininess: S::ONE,
+        highlight: Highlight::Phong,
+        metallic: false,
+        reflect: S::ZERO,
+        transmit: S::ZERO,
+        ior: S::ONE,
+        fresnel: Fresnel::Off,
+        absorb: Rgb::BLACK,
+    };
+
     /// A dull surface of one colour: ka 1, kd 0.7, nothing else.
     pub fn matte(color: Rgb<S>) -> Self {
         Self {

@@ -68,6 +68,24 @@ pub struct Parts<'a, S: Scalar> {
     pub ambient: Rgb<S>,
 }
 
+impl<S: Scalar> Parts<'_, S> {
+    /// Nothing, in the dark: what a `static` scene starts from.
+    pub const fn seen_by(camera: Camera<S>) -> Self {
+        Self {
+            nodes: &[],
+            objects: &[],
+            materials: &[],
+            textures: &[],
+            lights: &[],
+            placements: &[],
+            points: &[],
+            camera,
+            background: Background::Constant(Rgb::BLACK),
+            ambient: Rgb::BLACK,
+        }
+    }
+}
+
 /// What a scene needs and what it can reach, known before the first ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits<S> {
