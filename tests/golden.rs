@@ -95,7 +95,7 @@ where
 #[test]
 fn threads_and_rows_do_not_matter_in_single_precision() {
     the_same_in_any_split::<f32>("showcase");
-    the_same_in_any_split::<f32>("sphereflake");
+    the_same_in_any_split::<f32>("mirrors");
 }
 
 #[test]

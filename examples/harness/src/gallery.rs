@@ -49,8 +49,8 @@ pub static GALLERY: &[Entry] = &[
     file!("solids", "one of each solid"),
     Entry {
         name: "sphereflake",
-        description: "820 mirroring spheres, made at run time",
-        origin: Origin::Made(|| sphereflake(3)),
+        description: "91 mirroring spheres, made at run time",
+        origin: Origin::Made(|| sphereflake(2)),
     },
     file!("stress", "thin wires before a far planet, through a telescope of one degree"),
 ];
