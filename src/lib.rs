@@ -74,3 +74,8 @@ pub use solid::{Leaf, Node};
 pub use span::{Boundary, Operator, Passage, Spans};
 pub use stats::{Event, Stats, Tally};
 pub use texture::{Checker, Mapping, Paint, Texture};
+
+/// The examples of the README, which must compile and hold.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
