@@ -8,114 +8,17 @@
 //! |t error|·|dir|/size. Solids are exact as the user gave them; a row "stored" takes them from
 //! the rounded placement instead.
 #![allow(clippy::expect_used, clippy::panic, clippy::indexing_slicing, reason = "tests may panic")]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "a measure of errors need not be the same to the bit"
+)]
 
 mod oracle;
 
-use nostray::ray::Line;
 use nostray::{Affine, Axis, Form, Ray, Scalar, Vector};
 use oracle::subject::{Kind, Plan, ROUND, Subject};
+use oracle::table::{Limit, Row, Size, Table};
 use oracle::{Path, Random, Real, Solid, along, array, length, point, ulp, vector};
-
-/// What a class of rays showed.
-#[derive(Default)]
-struct Row {
-    rays: u32,
-    hits: u32,
-    wrong: u32,
-    /// In ε·size.
-    margin: f64,
-    ulp: f64,
-    geo: f64,
-}
-
-/// What it may show at most.
-#[derive(Clone, Copy)]
-struct Limit {
-    margin: f64,
-    ulp: f64,
-    geo: f64,
-}
-
-const MARGINS: [f64; 12] =
-    [0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 64.0, 1024.0, 65536.0, f64::INFINITY];
-
-/// The sizes that errors are told in: of the decision, and of the whole solid.
-#[derive(Clone, Copy)]
-struct Size {
-    decision: f64,
-    whole: f64,
-}
-
-impl Row {
-    fn take<S: Scalar>(&mut self, subject: &Subject<S>, exact: &Solid, size: Size, ray: Ray<S>) {
-        self.rays += 1;
-        let path = Path::of(&ray);
-        let found = subject.span(ray);
-        let truth = exact.span(&path, &Real::from(0.0));
-        self.hits += u32::from(truth.is_some());
-        if found.is_some_and(|[_, exit]| exit > 0.0) {
-            let bounds = subject.shape.bounds(subject.place.as_ref(), &[]);
-            assert!(bounds.meets(&Line::new(ray, None), S::FAR), "bounds lose {ray:?}");
-        }
-        match (found, &truth) {
-            (Some(found), Some(truth)) => self.measure(found, truth, size.whole, ray),
-            (None, None) => {}
-            (found, _) => {
-                self.wrong += 1;
-                let sign = if found.is_some() { 1.0 } else { -1.0 };
-                let unit = sign * S::EPSILON.to_f64() * size.decision;
-                let agrees = |margin: f64| {
-                    exact.span(&path, &Real::from(margin * unit)).is_some() == found.is_some()
-                };
-                let margin = MARGINS.into_iter().find(|&m| m.is_infinite() || agrees(m));
-                self.margin = self.margin.max(margin.unwrap_or(f64::INFINITY));
-            }
-        }
-    }
-
-    fn measure<S: Scalar>(&mut self, found: [f64; 2], truth: &[Real; 2], size: f64, ray: Ray<S>) {
-        let speed = length(array::<S>(ray.dir));
-        for (t, exact) in found.into_iter().zip(truth) {
-            let rounded = exact.to_f64();
-            if t.is_infinite() || rounded.abs() > 1e300 {
-                assert!(t.is_infinite() && rounded.abs() > 1e300, "{t} for {rounded}");
-                continue;
-            }
-            let error = (Real::from(t) - exact).abs().to_f64();
-            self.ulp = self.ulp.max(error / ulp::<S>(rounded));
-            self.geo = self.geo.max(error * speed / size);
-        }
-    }
-
-    fn show(&self, table: &mut Table, name: &str, limit: Limit) {
-        let Self { rays, hits, wrong, margin, ulp, geo } = self;
-        table.0 +=
-            &format!("{name:40} {rays:7} {hits:7} {wrong:6} {margin:7} {ulp:11.2e} {geo:11.2e}\n");
-        assert!(*hits > rays / 5, "{name}: {hits} hits of {rays}");
-        assert!(*margin <= limit.margin, "{name}: margin {margin} > {}", limit.margin);
-        assert!(*ulp <= limit.ulp, "{name}: {ulp} ulp > {}", limit.ulp);
-        assert!(*geo <= limit.geo, "{name}: geo {geo:e} > {:e}", limit.geo);
-    }
-}
-
-/// Lines that are printed together when they are complete, or when a limit is exceeded.
-struct Table(String);
-
-impl Table {
-    fn new<S: Scalar>(title: &str) -> Self {
-        let title = format!("{}: {title}", S::NAME);
-        Self(format!(
-            "\n{title:40} {:>7} {:>7} {:>6} {:>7} {:>11} {:>11}\n",
-            "rays", "hits", "wrong", "margin", "ulp", "geo"
-        ))
-    }
-}
-
-impl Drop for Table {
-    fn drop(&mut self) {
-        print!("{}", self.0);
-    }
-}
 
 /// A ray at a point, from so many sizes away, 10⁻³ to 10³ long.
 fn aimed<S: Scalar>(random: &mut Random, target: [f64; 3], size: f64, distance: f64) -> Ray<S> {
