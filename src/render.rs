@@ -81,8 +81,8 @@ struct Pending<S: Scalar> {
     start: Option<Start<S>>,
     weight: Rgb<S>,
     depth: u16,
-    /// The surfaces that it went through without being mirrored or refracted.
-    passed: u32,
+    /// How far it has come already, through surfaces that do not show.
+    after: S,
 }
 
 /// A picture in the making: plain data that can be stored at any step and taken up again.
@@ -192,7 +192,7 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
             None => {
                 self.tally.count(Event::PrimaryRay);
                 let ray = self.lens.ray(self.x, self.rows.start, [S::HALF, S::HALF]);
-                Pending { ray, start: None, weight: Rgb::WHITE, depth: 0, passed: 0 }
+                Pending { ray, start: None, weight: Rgb::WHITE, depth: 0, after: S::ZERO }
             }
         };
         self.trace(pending);
@@ -210,12 +210,12 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
 
     /// Adds the share of one ray, and puts the rays that it asks for on the stack.
     fn trace(&mut self, pending: Pending<S>) {
-        let Pending { ray, start, mut weight, depth, passed } = pending;
+        let Pending { ray, start, mut weight, depth, after } = pending;
         let line = Line::new(ray, start);
-        let found = self.scene.search(&line, S::FAR, &mut self.boundaries, &mut self.tally);
+        let found = self.scene.search(&line, after, &mut self.boundaries, &mut self.tally);
         let here = found.media.here();
         let distance = found.hit.map_or(S::FAR, |hit| hit.boundary.t);
-        weight = weight * self.scene.absorption(here, distance);
+        weight = weight * self.scene.absorption(here, distance - after);
         let surface = found.hit.and_then(|hit| Surface::new(&self.scene, &line, &hit));
         let Some(surface) = surface else {
             self.color += self.scene.parts().background.toward(ray.dir) * weight;
@@ -223,11 +223,10 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
         };
         let (object, passage) = surface.crossing();
         let behind = found.media.behind(object, passage);
-        // Far out, where rounding keeps a ray in its place, the passing has an end too.
-        if passed < self.scene.limits().crossings && surface.is_passed_by(here, behind) {
-            // The same depth: no light is mirrored or refracted here.
-            let Branch { ray, start, weight } = surface.passed(ray.dir, weight);
-            self.push(Pending { ray, start: Some(start), weight, depth, passed: passed + 1 });
+        if surface.is_passed_by(here, behind) {
+            // The same ray goes on behind this boundary, at the same depth: no light is mirrored
+            // or refracted here, and no rounding can bring the boundary back.
+            self.push(Pending { weight, after: distance, ..pending });
             return;
         }
         let ratio = if passage == Passage::Touch {
@@ -272,7 +271,7 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
             return;
         }
         self.tally.count(event);
-        self.push(Pending { ray, start: Some(start), weight, depth, passed: 0 });
+        self.push(Pending { ray, start: Some(start), weight, depth, after: S::ZERO });
     }
 
     /// One ray is taken from the stack before at most two are put on it, each one deeper, so

@@ -160,11 +160,6 @@ impl<'a, S: Scalar> Surface<'a, S> {
         self.passage != Passage::Touch && self.material.is_transparent() && here == behind
     }
 
-    /// The ray that goes on as if the surface were not there.
-    pub(crate) fn passed(&self, dir: S::Vec3, weight: Rgb<S>) -> Branch<S> {
-        self.branch(dir, true, weight)
-    }
-
     /// Which side of which object the ray goes through.
     pub(crate) fn crossing(&self) -> (u32, Passage) {
         (self.object, self.passage)

