@@ -1,4 +1,5 @@
 //! The builder takes back what it refuses, and no tables whatsoever make the tracer fail.
+#![allow(clippy::indexing_slicing, clippy::unwrap_used, reason = "tests may panic")]
 
 use nostray::glam::Vec3;
 use nostray::solid::NESTING_MAX;

@@ -1,4 +1,6 @@
 //! Faces that lie in one plane: no lid is left, no seam, and no false shadow.
+#![allow(clippy::indexing_slicing, clippy::unwrap_used, reason = "tests may panic")]
+#![allow(clippy::disallowed_methods, reason = "what makes cases need not be the same to the bit")]
 
 use nostray::*;
 

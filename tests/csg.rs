@@ -1,4 +1,6 @@
 //! Set operations on solids along rays, against membership point by point.
+#![allow(clippy::indexing_slicing, clippy::unwrap_used, reason = "tests may panic")]
+#![allow(clippy::disallowed_methods, reason = "what makes cases need not be the same to the bit")]
 
 use nostray::*;
 use proptest::prelude::*;
@@ -27,7 +29,7 @@ fn vector<S: Scalar>(v: [f64; 3]) -> S::Vec3 {
 }
 
 impl Body {
-    fn to_world<S: Scalar>(&self) -> Affine<S> {
+    fn to_world<S: Scalar>(self) -> Affine<S> {
         let mut affine = Affine::identity();
         for (axis, degrees) in Axis::ALL.into_iter().zip(self.turn) {
             affine = affine.then(&Affine::rotate(axis, S::from_f64(degrees)));

@@ -12,8 +12,10 @@ const FUNCTION_LINES_MAX: usize = 70;
 const FILE_LINES_MAX: usize = 450;
 
 /// Types that may hold a `usize`, and why.
-const USIZE_HOLDERS: &[(&str, &str)] =
-    &[("Frame", "lives during one call of the evaluator; positions in its buffer")];
+const USIZE_HOLDERS: &[(&str, &str)] = &[
+    ("Frame", "lives during one call of the evaluator; positions in its buffer"),
+    ("Nest", "lives during one check of a solid; how many operators are open"),
+];
 
 /// A source file and where it lies.
 struct Source {

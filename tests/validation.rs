@@ -1,8 +1,12 @@
 //! Every kind of bad scene is refused, with the place, the field and the limit.
+#![allow(
+    clippy::expect_used,
+    clippy::indexing_slicing,
+    clippy::unwrap_used,
+    reason = "tests may panic"
+)]
 
-use nostray::glam::Vec3;
-use nostray::solid::NESTING_MAX;
-use nostray::*;
+use nostray::{glam::Vec3, solid::NESTING_MAX, *};
 
 /// The tables of a scene, to be spoilt one thing at a time.
 #[derive(Clone)]
@@ -106,7 +110,7 @@ fn refused(spoil: impl FnOnce(&mut Tables)) -> SceneError {
     let mut tables = Tables::good();
     assert!(tables.scene().is_ok());
     spoil(&mut tables);
-    tables.scene().err().expect("a bad scene was taken")
+    tables.scene().expect_err("a bad scene was taken")
 }
 
 /// Why the good scene is refused with another shape as node 2.

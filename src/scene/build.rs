@@ -1,5 +1,9 @@
 //! Scenes put together at run time, in tables of fixed size.
 
+mod realise;
+
+pub use realise::Form;
+
 use super::check::check_object;
 use super::{Object, Parts, Scene};
 use crate::background::Background;
@@ -8,9 +12,9 @@ use crate::color::Rgb;
 use crate::error::{Item, SceneError};
 use crate::light::Light;
 use crate::material::Material;
-use crate::place::{Affine, Placement, apply_transposed};
+use crate::place::{Affine, Placement};
 use crate::scalar::{Axis, Scalar, Vector};
-use crate::shape::{Cone, Cuboid, Cylinder, Plane, Polygon, Shape, Sphere, Triangle};
+use crate::shape::Shape;
 use crate::solid::{Leaf, NESTING_MAX, Node};
 use crate::span::Operator;
 use crate::texture::Texture;
@@ -76,64 +80,6 @@ impl<const O: usize, const N: usize, const M: usize, const P: usize> Storage for
     type Points<T: Copy> = heapless::Vec<T, P>;
 }
 
-/// A shape as people describe it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Form<'a, S: Scalar> {
-    /// A ball.
-    Sphere {
-        /// The middle.
-        center: S::Vec3,
-        /// The radius.
-        radius: S,
-    },
-    /// The half-space `normal · p ≤ offset`.
-    Plane {
-        /// The outward normal, of any length but 0.
-        normal: S::Vec3,
-        /// `normal · p` for a point of the plane.
-        offset: S,
-    },
-    /// A box along the axes.
-    Box {
-        /// The least coordinates.
-        min: S::Vec3,
-        /// The greatest coordinates.
-        max: S::Vec3,
-    },
-    /// A cylinder between the middles of its caps.
-    Cylinder {
-        /// The middle of the lower cap.
-        base: S::Vec3,
-        /// The middle of the upper cap.
-        top: S::Vec3,
-        /// The radius.
-        radius: S,
-    },
-    /// A cone or frustum between the middles of its caps.
-    Cone {
-        /// The middle of the lower cap.
-        base: S::Vec3,
-        /// The radius of the lower cap; may be 0.
-        base_radius: S,
-        /// The middle of the upper cap.
-        top: S::Vec3,
-        /// The radius of the upper cap; may be 0.
-        top_radius: S,
-    },
-    /// A triangle, an open surface.
-    Triangle {
-        /// The corners, counterclockwise from outside.
-        corners: [S::Vec3; 3],
-        /// The normals that light sees at the corners, if the triangle is to look curved.
-        normals: Option<[S::Vec3; 3]>,
-    },
-    /// A plane polygon, convex or not, an open surface.
-    Polygon {
-        /// The vertices, counterclockwise from outside.
-        vertices: &'a [S::Vec3],
-    },
-}
-
 /// A scene that is put together piece by piece.
 ///
 /// Leaves and operators come in the order in which a tree is read: [`open`](Self::open) an
@@ -162,9 +108,9 @@ pub struct SceneBuilder<S: Scalar, M: Storage = Fixed<16, 64, 16, 64>> {
 /// How long the tables were when the last object was finished.
 #[derive(Clone, Copy, Debug, Default)]
 struct Finished {
-    nodes: usize,
-    placements: usize,
-    points: usize,
+    nodes: u32,
+    placements: u32,
+    points: u32,
 }
 
 impl<S: Scalar, M: Storage> Default for SceneBuilder<S, M> {
@@ -252,7 +198,7 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
         let placement = Placement::new(to_world).ok_or(SceneError::SingularPlacement { at })?;
         let index = add_narrow(&mut self.placements, "placements", placement)?;
         // It belongs to no object, so no refused object may take it along.
-        self.finished.placements = self.placements.entries().len();
+        self.finished.placements = self.placements.entries().len() as u32;
         Ok(index)
     }
 
@@ -337,8 +283,8 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
         if !self.open.is_empty() {
             return Ok(());
         }
-        let (first, end) = (self.finished.nodes, self.nodes.entries().len());
-        let mut object = Object::new(first as u32, (end - first) as u32, material);
+        let (first, end) = (self.finished.nodes, self.nodes.entries().len() as u32);
+        let mut object = Object::new(first, end - first, material);
         let index = self.objects.entries().len() as u32;
         let result = check_object(&self.parts(), index, &object).and_then(|needs| {
             let bounds = needs.bounds;
@@ -350,8 +296,8 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
             Ok(_) => {
                 self.finished = Finished {
                     nodes: end,
-                    placements: self.placements.entries().len(),
-                    points: self.points.entries().len(),
+                    placements: self.placements.entries().len() as u32,
+                    points: self.points.entries().len() as u32,
                 };
                 Ok(())
             }
@@ -378,181 +324,9 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
 
     /// Drops the object that is being put together, with its placements and vertices.
     fn take_back(&mut self) {
-        self.nodes.truncate(self.finished.nodes);
-        self.placements.truncate(self.finished.placements);
-        self.points.truncate(self.finished.points);
+        self.nodes.truncate(self.finished.nodes as usize);
+        self.placements.truncate(self.finished.placements as usize);
+        self.points.truncate(self.finished.points as usize);
         self.open.clear();
-    }
-
-    /// The shape and the placement that a form becomes, with its vertices in the table.
-    fn realise(
-        &mut self,
-        form: Form<'_, S>,
-        to_world: &Affine<S>,
-    ) -> Result<(Shape<S>, Option<u16>), SceneError> {
-        let at = Item::Node(self.nodes.entries().len() as u32);
-        let singular = SceneError::SingularPlacement { at };
-        let finite = to_world.rows.iter().chain([&to_world.offset]).all(|row| row.is_finite());
-        if !finite {
-            return Err(SceneError::NotFinite { at, field: "placement" });
-        }
-        let inverse = to_world.inverse_rows().ok_or(singular)?;
-        match form {
-            Form::Sphere { center, radius } => {
-                let stand =
-                    Stand::new(&Affine::translate(center).then(to_world)).ok_or(singular)?;
-                let center = stand.centre();
-                let shape = Shape::Sphere(Sphere { center, radius: radius * stand.factor });
-                Ok((shape, self.stand(&stand)?))
-            }
-            Form::Plane { normal, offset } => {
-                let normal = apply_transposed::<S>(&inverse, normal);
-                let offset = offset + normal.dot(to_world.offset);
-                Ok((Shape::Plane(Plane { normal, offset }), None))
-            }
-            Form::Box { min, max } => self.realise_box(min, max, to_world, singular),
-            Form::Cylinder { base, top, radius } => {
-                let (stand, half_height) = Stand::along(base, top, to_world, at)?;
-                let shape = Cylinder {
-                    center: stand.centre(),
-                    half_height: half_height * stand.factor,
-                    radius: radius * stand.factor,
-                };
-                Ok((Shape::Cylinder(shape), self.stand(&stand)?))
-            }
-            Form::Cone { base, base_radius, top, top_radius } => {
-                let (stand, half_height) = Stand::along(base, top, to_world, at)?;
-                let shape = Cone {
-                    center: stand.centre(),
-                    half_height: half_height * stand.factor,
-                    base_radius: base_radius * stand.factor,
-                    top_radius: top_radius * stand.factor,
-                };
-                Ok((Shape::Cone(shape), self.stand(&stand)?))
-            }
-            Form::Triangle { corners, normals } => {
-                let mut indices = [0; 3];
-                for (index, corner) in indices.iter_mut().zip(corners) {
-                    *index = add(&mut self.points, "points", to_world.point(corner))?;
-                }
-                let first = self.points.entries().len() as u32;
-                for normal in normals.iter().flatten() {
-                    let normal = apply_transposed::<S>(&inverse, *normal).normalize();
-                    add(&mut self.points, "points", normal)?;
-                }
-                let normals = if normals.is_some() { first } else { Triangle::FLAT };
-                Ok((Shape::Triangle(Triangle { corners: indices, normals }), None))
-            }
-            Form::Polygon { vertices } => {
-                let first = self.points.entries().len() as u32;
-                for &vertex in vertices {
-                    add(&mut self.points, "points", to_world.point(vertex))?;
-                }
-                let placed = self.points.entries().get(first as usize..).unwrap_or(&[]);
-                let normal = Polygon::<S>::newell(placed);
-                let count = placed.len() as u32;
-                Ok((Shape::Polygon(Polygon { first, count, normal }), None))
-            }
-        }
-    }
-
-    fn realise_box(
-        &mut self,
-        min: S::Vec3,
-        max: S::Vec3,
-        to_world: &Affine<S>,
-        singular: SceneError,
-    ) -> Result<(Shape<S>, Option<u16>), SceneError> {
-        let [x, y, z] = to_world.rows;
-        let diagonal = x.with(Axis::X, S::ZERO) == S::Vec3::ZERO
-            && y.with(Axis::Y, S::ZERO) == S::Vec3::ZERO
-            && z.with(Axis::Z, S::ZERO) == S::Vec3::ZERO;
-        if diagonal {
-            let (a, b) = (to_world.point(min), to_world.point(max));
-            // Only a mirror may swap the corners; a box that was empty or inverted stays so.
-            let order = S::Vec3::new(x.x(), y.y(), z.z());
-            let swap = |a: S::Vec3, b: S::Vec3| {
-                let pick = |axis: Axis| {
-                    if order.get(axis) < S::ZERO { b.get(axis) } else { a.get(axis) }
-                };
-                S::Vec3::new(pick(Axis::X), pick(Axis::Y), pick(Axis::Z))
-            };
-            return Ok((Shape::Box(Cuboid { min: swap(a, b), max: swap(b, a) }), None));
-        }
-        let centre = (min + max) * S::HALF;
-        let half = (max - min) * S::HALF;
-        let stand = Stand::new(&Affine::translate(centre).then(to_world)).ok_or(singular)?;
-        let half = half * stand.factor;
-        let placement = Placement::new(&stand.to_world).ok_or(singular)?;
-        let index = add_narrow(&mut self.placements, "placements", placement)?;
-        Ok((Shape::Box(Cuboid { min: -half, max: half }), Some(index)))
-    }
-
-    /// The placement of a stand that needs one.
-    fn stand(&mut self, stand: &Stand<S>) -> Result<Option<u16>, SceneError> {
-        if stand.is_upright() {
-            return Ok(None);
-        }
-        let at = Item::Node(self.nodes.entries().len() as u32);
-        let placement =
-            Placement::new(&stand.to_world).ok_or(SceneError::SingularPlacement { at })?;
-        add_narrow(&mut self.placements, "placements", placement).map(Some)
-    }
-}
-
-/// Where a centred shape stands: a map without the factor of a similarity, which goes into
-/// the shape's lengths instead.
-struct Stand<S: Scalar> {
-    to_world: Affine<S>,
-    factor: S,
-}
-
-impl<S: Scalar> Stand<S> {
-    fn new(to_world: &Affine<S>) -> Option<Self> {
-        to_world.inverse_rows()?;
-        let Some(factor) = to_world.similarity() else {
-            return Some(Self { to_world: *to_world, factor: S::ONE });
-        };
-        let inverse = S::ONE / factor;
-        let rows =
-            if factor == S::ONE { to_world.rows } else { to_world.rows.map(|row| row * inverse) };
-        Some(Self { to_world: Affine { rows, offset: to_world.offset }, factor })
-    }
-
-    /// The stand of a body whose local y axis goes from `base` to `top`, and half its height.
-    fn along(
-        base: S::Vec3,
-        top: S::Vec3,
-        to_world: &Affine<S>,
-        at: Item,
-    ) -> Result<(Self, S), SceneError> {
-        let axis = top - base;
-        if !axis.is_finite() {
-            return Err(SceneError::NotFinite { at, field: "base" });
-        }
-        let length = axis.length();
-        if !(length >= S::LENGTH_MIN) {
-            return Err(SceneError::Empty { at, field: "top" });
-        }
-        let unit = axis.normalize();
-        let upright = unit == S::Vec3::ZERO.with(Axis::Y, S::ONE);
-        let rows = if upright {
-            Affine::<S>::identity().rows
-        } else {
-            let (w, u) = unit.basis();
-            Axis::ALL.map(|axis| S::Vec3::new(u.get(axis), unit.get(axis), w.get(axis)))
-        };
-        let own = Affine { rows, offset: (base + top) * S::HALF };
-        let stand = Self::new(&own.then(to_world)).ok_or(SceneError::SingularPlacement { at })?;
-        Ok((stand, length * S::HALF))
-    }
-
-    fn is_upright(&self) -> bool {
-        self.to_world.rows == Affine::<S>::identity().rows
-    }
-
-    /// The centre that the shape itself has: its place if it stands upright.
-    fn centre(&self) -> S::Vec3 {
-        if self.is_upright() { self.to_world.offset } else { S::Vec3::ZERO }
     }
 }

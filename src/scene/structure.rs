@@ -4,7 +4,7 @@
 use super::Object;
 use crate::error::{Item, SceneError};
 use crate::scalar::Scalar;
-use crate::solid::{NESTING_MAX, Node};
+use crate::solid::{Leaf, NESTING_MAX, Node};
 use crate::span::Operator;
 
 /// What the solids of a scene need, known from how they are put together.
@@ -228,16 +228,8 @@ pub(super) const fn object_structure<S: Scalar>(
             }
             Node::Leaf(leaf) => {
                 let (from, operator) = (Item::Node(node), nest.closed_operator());
-                if let Err(error) = check_index(from, "materials", leaf.material, materials) {
+                if let Err(error) = check_leaf(from, leaf, operator, [materials, placements]) {
                     return Err(error);
-                }
-                if let Some(placement) = leaf.placement
-                    && let Err(error) = check_index(from, "placements", placement, placements)
-                {
-                    return Err(error);
-                }
-                if let (true, Some(operator)) = (leaf.shape.is_open(), operator) {
-                    return Err(SceneError::OpenSurface { at: from, operator });
                 }
                 crossings = crossings.saturating_add(2 * leaf.shape.spans_max() as u32);
                 finished = match nest.finish(node + 1) {
@@ -259,6 +251,28 @@ pub(super) const fn object_structure<S: Scalar>(
         return Err(SceneError::SpanOverflow { at, needed, limit });
     }
     Ok(Structure { boundaries: needed, crossings })
+}
+
+/// Checks the indices of a leaf, into tables of these lengths, and whether it may be an open
+/// surface under the operator that needs an inside, if there is one.
+const fn check_leaf<S: Scalar>(
+    at: Item,
+    leaf: &Leaf<S>,
+    operator: Option<Operator>,
+    [materials, placements]: [usize; 2],
+) -> Result<(), SceneError> {
+    if let Err(error) = check_index(at, "materials", leaf.material, materials) {
+        return Err(error);
+    }
+    if let Some(placement) = leaf.placement
+        && let Err(error) = check_index(at, "placements", placement, placements)
+    {
+        return Err(error);
+    }
+    match operator {
+        Some(operator) if leaf.shape.is_open() => Err(SceneError::OpenSurface { at, operator }),
+        _ => Ok(()),
+    }
 }
 
 /// The nodes of an object, or `None` beyond the end of the table.
