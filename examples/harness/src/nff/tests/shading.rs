@@ -141,7 +141,8 @@ fn negative_radii_are_their_magnitude() {
 fn patches_are_shaded_by_their_normals() {
     let surface = "l 0 -5 0 f 1 1 1 1 0 1 0 0\n";
     let patch = |count: usize, normal: &str| {
-        let corners = ["-2 0 -2", "2 0 -2", "2 0 2", "-2 0 2"];
+        // No edge goes through the middle.
+        let corners = ["-2 0 -2", "2 0 -2", "2 0 3", "-2 0 2"];
         let lines: Vec<_> = corners[..count].iter().map(|c| format!("{c} {normal}\n")).collect();
         view(&format!("{surface}pp {count}\n{}", lines.concat()))
     };
