@@ -49,7 +49,7 @@ fn cell(entry: &'static Entry) -> Result<Vec<Rgb<f32>>, Box<dyn Error>> {
     let depth = Depth::fixed(8);
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let order = Order { width, height, rows: 0..height, depth, threads, counted: false };
-    let picture = render(&scene, &order, || ())?;
+    let picture = render(&scene, &order, &|| ())?;
     let mut sums = vec![Rgb::BLACK; WIDTH * HEIGHT];
     for (index, &color) in picture.pixels.iter().enumerate() {
         let (x, y) = (index % width as usize / MEAN_OF, index / width as usize / MEAN_OF);

@@ -36,7 +36,7 @@ fn picture<S: Scalar>(
     let scene = loaded.scene().expect("a scene of the gallery is legal");
     let depth = Depth::fixed(8);
     let order = Order { width: WIDTH, height: HEIGHT, rows, depth, threads, counted: false };
-    render(&scene, &order, || ()).expect("the picture has a legal size")
+    render(&scene, &order, &|| ()).expect("the picture has a legal size")
 }
 
 /// The line of the record for a scene in a number format.

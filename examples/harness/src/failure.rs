@@ -33,7 +33,7 @@ impl From<io::Error> for Failure {
 }
 
 /// Tells how a command ended, and gives its exit code.
-pub(crate) fn report(result: Result<(), Failure>, err: &mut impl Write) -> u8 {
+pub(crate) fn report(result: Result<(), Failure>, err: &mut dyn Write) -> u8 {
     match result {
         Ok(()) => 0,
         Err(Failure { message, code }) => {
@@ -46,8 +46,8 @@ pub(crate) fn report(result: Result<(), Failure>, err: &mut impl Write) -> u8 {
 
 /// The options of a command, or `None` if all that was asked for was help.
 pub(crate) fn parse<T: clap::Parser>(
-    args: impl IntoIterator<Item = OsString>,
-    out: &mut impl Write,
+    args: Vec<OsString>,
+    out: &mut dyn Write,
 ) -> Result<Option<T>, Failure> {
     match T::try_parse_from(args) {
         Ok(options) => Ok(Some(options)),

@@ -50,18 +50,14 @@ struct Beam {
 /// Questions that cannot be answered are told on `out`, other failures in one line on `err`.
 pub fn probe_command(
     args: impl IntoIterator<Item = OsString>,
-    input: &mut impl BufRead,
-    out: &mut impl Write,
-    err: &mut impl Write,
+    input: &mut dyn BufRead,
+    out: &mut dyn Write,
+    err: &mut dyn Write,
 ) -> u8 {
-    report(run(args, input, out), err)
+    report(run(args.into_iter().collect(), input, out), err)
 }
 
-fn run(
-    args: impl IntoIterator<Item = OsString>,
-    input: &mut impl BufRead,
-    out: &mut impl Write,
-) -> Result<(), Failure> {
+fn run(args: Vec<OsString>, input: &mut dyn BufRead, out: &mut dyn Write) -> Result<(), Failure> {
     let Some(options) = parse::<Options>(args, out)? else {
         return Ok(());
     };

@@ -58,14 +58,14 @@ pub struct Raster<S> {
 pub fn render<S: Scalar>(
     scene: &Scene<'_, S>,
     order: &Order<S>,
-    on_row: impl Fn() + Sync,
+    on_row: &(dyn Fn() + Sync),
 ) -> Result<Raster<S>, SceneError> {
     let few = scene.limits().boundaries as usize <= BOUNDARIES_FEW;
     match (few, order.counted) {
         (true, false) => fill::<S, BOUNDARIES_FEW, ()>(scene, order, on_row),
         (true, true) => fill::<S, BOUNDARIES_FEW, Stats>(scene, order, on_row),
-        (false, false) => fill::<S, BOUNDARIES_ALL, ()>(scene, order, on_row),
-        (false, true) => fill::<S, BOUNDARIES_ALL, Stats>(scene, order, on_row),
+        // So rare that counting what nobody asks for does not matter.
+        (false, _) => fill::<S, BOUNDARIES_ALL, Stats>(scene, order, on_row),
     }
 }
 
@@ -97,10 +97,10 @@ struct Share<S> {
 fn fill<S: Scalar, const BOUNDARIES: usize, T: Count>(
     scene: &Scene<'_, S>,
     order: &Order<S>,
-    on_row: impl Fn() + Sync,
+    on_row: &(dyn Fn() + Sync),
 ) -> Result<Raster<S>, SceneError> {
     let next = AtomicU32::new(order.rows.start);
-    let work = || work::<S, BOUNDARIES, T>(scene, order, &next, &on_row);
+    let work = || work::<S, BOUNDARIES, T>(scene, order, &next, on_row);
     let threads = order.threads.clamp(1, order.rows.len().max(1));
     let shares = thread::scope(|scope| {
         let start = |index: usize| {
@@ -127,7 +127,7 @@ fn work<S: Scalar, const BOUNDARIES: usize, T: Count>(
     scene: &Scene<'_, S>,
     order: &Order<S>,
     next: &AtomicU32,
-    on_row: &(impl Fn() + Sync),
+    on_row: &(dyn Fn() + Sync),
 ) -> Result<Share<S>, SceneError> {
     let mut share = Share { rows: Vec::new(), spent: S::ZERO, stats: Stats::default() };
     loop {

@@ -62,8 +62,7 @@ struct Options {
     /// The transfer curve of .png and .ppm: srgb or linear
     #[arg(long, value_name = "CURVE", default_value = "srgb", value_parser = transfer)]
     transfer: Transfer,
-    /// Prints the SHA-256 of the RGB8 rows and of the light's little-endian bits; a picture is
-    /// then written only where -o asks for it
+    /// Prints the SHA-256 of the RGB8 rows and of the light's little-endian bits, in one line
     #[arg(long)]
     digest: bool,
     /// Prints counters as one JSON object
@@ -76,17 +75,13 @@ struct Options {
 /// one line on `err`; so is what a file holds but the scene does not.
 pub fn render_command(
     args: impl IntoIterator<Item = OsString>,
-    out: &mut impl Write,
-    err: &mut impl Write,
+    out: &mut dyn Write,
+    err: &mut dyn Write,
 ) -> u8 {
-    report(run(args, out, err), err)
+    report(run(args.into_iter().collect(), out, err), err)
 }
 
-fn run(
-    args: impl IntoIterator<Item = OsString>,
-    out: &mut impl Write,
-    err: &mut impl Write,
-) -> Result<(), Failure> {
+fn run(args: Vec<OsString>, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), Failure> {
     let Some(options) = parse::<Options>(args, out)? else {
         return Ok(());
     };
@@ -132,11 +127,7 @@ impl Options {
         Ok(())
     }
 
-    fn picture<S: Scalar>(
-        &self,
-        out: &mut impl Write,
-        err: &mut impl Write,
-    ) -> Result<(), Failure> {
+    fn picture<S: Scalar>(&self, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), Failure> {
         let source = Source::find(&self.scene).map_err(Failure::usage)?;
         let target = self.target(&source)?;
         let loaded = source.load::<S>().map_err(Failure::scene)?;
@@ -149,14 +140,13 @@ impl Options {
         }
         let bar = progress(order.rows.len());
         let begun = Instant::now();
-        let rendered = render(&scene, &order, || bar.inc(1));
+        let rendered = render(&scene, &order, &|| bar.inc(1));
         let seconds = begun.elapsed().as_secs_f64();
         bar.finish_and_clear();
         let raster = rendered.map_err(|error| Failure::scene(format!("{name}: {error}")))?;
-        if let Some((path, format)) = target {
-            let written = write(&raster, &path, format, self.transfer);
-            written.map_err(|e| Failure::scene(format!("{}: {e}", path.display())))?;
-        }
+        let (path, format) = target;
+        let written = write(&raster, &path, format, self.transfer);
+        written.map_err(|e| Failure::scene(format!("{}: {e}", path.display())))?;
         if self.digest {
             writeln!(out, "{}", digest(&raster, self.transfer))?;
         }
@@ -167,13 +157,9 @@ impl Options {
         Ok(())
     }
 
-    /// The file that the picture goes to, if any.
-    fn target(&self, source: &Source) -> Result<Option<(PathBuf, Format)>, Failure> {
-        let path = match &self.output {
-            Some(path) => path.clone(),
-            None if self.digest => return Ok(None),
-            None => source.picture(),
-        };
+    /// The file that the picture goes to.
+    fn target(&self, source: &Source) -> Result<(PathBuf, Format), Failure> {
+        let path = self.output.clone().unwrap_or_else(|| source.picture());
         let unknown =
             || Failure::usage(format!("{}: must end in .png, .ppm or .pfm", path.display()));
         let format = Format::of(&path).ok_or_else(unknown)?;
@@ -182,7 +168,7 @@ impl Options {
         if folder.is_some_and(|folder| !folder.is_dir()) {
             return Err(Failure::scene(format!("{}: its folder does not exist", path.display())));
         }
-        Ok(Some((path, format)))
+        Ok((path, format))
     }
 
     fn order<S: Scalar>(&self, size: Option<(u32, u32)>) -> Result<Order<S>, Failure> {
