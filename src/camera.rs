@@ -141,12 +141,6 @@ impl<S: Scalar> Lens<S> {
 }
 
 #[cfg(test)]
-#[allow(
-    clippy::unwrap_used,
-    clippy::disallowed_methods,
-    clippy::indexing_slicing,
-    reason = "a test may fail loudly, and compares with the platform's functions"
-)]
 mod tests {
     use glam::DVec3;
 

@@ -159,12 +159,6 @@ static SRGB_THRESHOLDS: [u32; 255] = [
 ];
 
 #[cfg(test)]
-#[allow(
-    clippy::unwrap_used,
-    clippy::disallowed_methods,
-    clippy::indexing_slicing,
-    reason = "a test may fail loudly, and compares with the platform's functions"
-)]
 mod tests {
     use super::*;
 

@@ -16,6 +16,7 @@
 //! | [`scene`] | tables of all this, borrowed and checked; nearest hit and shadows |
 //! | [`render`] | the picture, ray by ray, on a bounded stack |
 #![no_std]
+#![forbid(unsafe_code)]
 
 pub mod scalar;
 

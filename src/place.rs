@@ -254,12 +254,6 @@ impl<S: Scalar> Local<S> {
 }
 
 #[cfg(test)]
-#[allow(
-    clippy::unwrap_used,
-    clippy::disallowed_methods,
-    clippy::indexing_slicing,
-    reason = "a test may fail loudly, and compares with the platform's functions"
-)]
 mod tests {
     use glam::DVec3;
 
@@ -306,7 +300,8 @@ mod tests {
         assert!(close(apply::<f64>(&place.to_local, map.point(p) - place.anchor), p));
         // A normal stays at right angles to what it was at right angles to.
         let (tangent, normal) = (DVec3::new(1.0, 2.0, 0.0), DVec3::new(2.0, -1.0, 4.0));
-        assert!(apply::<f64>(&map.rows, tangent).dot(place.normal(normal)).abs() <= 1e-13);
+        let slope = Vector::dot(apply::<f64>(&map.rows, tangent), place.normal(normal));
+        assert!(slope.abs() <= 1e-13);
     }
 
     #[test]

@@ -12,7 +12,6 @@ use crate::shape::{Shape, Sight};
 use crate::span::{Boundary, End, Operator, Passage, Spans, drop_slivers, is_neutral, merge};
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test may panic")]
 mod twin;
 
 /// How deep operators may be nested.

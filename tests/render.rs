@@ -190,6 +190,25 @@ fn nff_is_read_with_its_own_size() {
 }
 
 #[test]
+fn lists_are_written_with_either_bracket() {
+    let scene = |colors: &str| {
+        format!(
+            "({CAMERA}, ambient: (1, 1, 1), textures: {{\"t\": Checker(colors: {colors})}},
+              materials: {{\"m\": (color: \"t\")}}, objects: [(material: \"m\", solid: {BALL})])"
+        )
+    };
+    let digest = |name: &str, colors: &str| {
+        output(&[&file(name, &scene(colors)), "--size", "16x12", "--digest"])
+    };
+    let round = digest("round.ron", "((1, 0, 0), (0, 0, 1))");
+    assert_eq!(digest("square.ron", "[[1, 0, 0], [0, 0, 1]]"), round);
+    for short in ["((1, 0, 0))", "[(1, 0, 0), (0, 0, 1), (0, 1, 0)]"] {
+        let message = refusal(&[&file("short.ron", &scene(short))], 1);
+        assert!(message.contains("short.ron:1:"), "{message}");
+    }
+}
+
+#[test]
 fn textures_stand_in_any_order() {
     let scene = |textures: &str| {
         format!(

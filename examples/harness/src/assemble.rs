@@ -108,7 +108,8 @@ impl<S: Scalar> Assembly<S> {
             };
             let path = root.field(name);
             let path = path.field("Checker");
-            let document::Texture::Checker { colors: [even, odd], size, mapping, place } = texture;
+            let document::Texture::Checker { colors, size, mapping, place } = texture;
+            let [even, odd] = &colors.0;
             let checker = Checker {
                 paints: [
                     paint(even, &indices, &path.field("colors").entry(0))?,
@@ -191,7 +192,7 @@ fn in_order(table: &Table<document::Texture>) -> Result<Vec<usize>, Flaw> {
         table.0.iter().enumerate().map(|(index, (name, _))| (name.as_str(), index)).collect();
     let named = |index: usize| {
         let colors =
-            table.0.get(index).map(|(_, document::Texture::Checker { colors, .. })| colors);
+            table.0.get(index).map(|(_, document::Texture::Checker { colors, .. })| &colors.0);
         colors.into_iter().flatten().filter_map(|paint| match paint {
             written::Paint::Color(_) => None,
             written::Paint::Texture(name) => by_name.get(name.as_str()).copied(),

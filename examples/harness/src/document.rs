@@ -6,7 +6,7 @@
 
 use serde::Deserialize;
 
-use crate::written::{Background, Factor, Paint, Table, Triple, present};
+use crate::written::{Background, Factor, Paint, Several, Table, Triple, present};
 
 /// A whole scene file.
 #[derive(Clone, Debug, Deserialize)]
@@ -121,7 +121,7 @@ pub enum Texture {
     /// Two paints in alternate cells.
     Checker {
         /// The paint of the cell at the origin, and the other.
-        colors: [Paint; 2],
+        colors: Several<Paint, 2>,
         /// The edge of a cell, or its edges along x, y and z; 1 if left out.
         #[serde(default)]
         size: Factor,
@@ -283,7 +283,7 @@ pub enum Solid {
         c: Triple,
         /// The normals that light sees at the corners, if it is to look curved.
         #[serde(default, deserialize_with = "present")]
-        normals: Option<[Triple; 3]>,
+        normals: Option<Several<Triple, 3>>,
     },
     /// A plane polygon, an open surface: vertices counterclockwise from outside.
     Polygon(Vec<Triple>),

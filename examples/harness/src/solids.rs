@@ -155,7 +155,7 @@ impl<'a, S: Scalar> Planter<'a, S> {
                 ("Cone", Form::Cone { base: v(base), base_radius, top: v(top), top_radius })
             }
             Solid::Triangle { a, b, c, normals } => {
-                let normals = normals.map(|normals| normals.map(v));
+                let normals = normals.map(|normals| normals.0.map(v));
                 ("Triangle", Form::Triangle { corners: [a, b, c].map(v), normals })
             }
             Solid::Polygon(ref written) => {

@@ -6,7 +6,7 @@ use nostray::glam::DVec3;
 
 use crate::document::{Camera, Document, Light, Mapping, Material, Object, Solid, Texture};
 use crate::moves::sin_cos_degrees;
-use crate::written::{Background, Factor, Gradient, Paint, Table, Triple};
+use crate::written::{Background, Factor, Gradient, Paint, Several, Table, Triple};
 
 /// How much smaller a sphere is than the one it sits on.
 const SHRINK: f64 = 1.0 / 3.0;
@@ -53,10 +53,10 @@ fn directions(axis: DVec3) -> [DVec3; 9] {
 /// Everything but the spheres.
 fn surroundings() -> Document {
     let tiles = Texture::Checker {
-        colors: [
+        colors: Several([
             Paint::Color(Triple([0.62, 0.55, 0.45])),
             Paint::Color(Triple([0.14, 0.12, 0.11])),
-        ],
+        ]),
         size: Factor([1.2; 3]),
         mapping: Mapping::Solid,
         place: Vec::new(),

@@ -41,6 +41,35 @@ impl<'de> Deserialize<'de> for Triple {
     }
 }
 
+/// So many values of one kind: `(a, b)` or `[a, b]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Several<T, const N: usize>(pub [T; N]);
+
+impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Several<T, N> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct Reader<T, const N: usize>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for Reader<T, N> {
+            type Value = Several<T, N>;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "a list of {N}")
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self::Value, A::Error> {
+                let mut values = Vec::with_capacity(N);
+                while let Some(value) = list.next_element()? {
+                    values.push(value);
+                    if values.len() > N {
+                        break;
+                    }
+                }
+                let len = values.len();
+                let values = values.try_into().map_err(|_| A::Error::invalid_length(len, &self))?;
+                Ok(Several(values))
+            }
+        }
+        from.deserialize_any(Reader(PhantomData))
+    }
+}
+
 /// A number for each axis: `(x, y, z)`, or one number for all three; 1 by default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factor(pub [f64; 3]);
