@@ -172,7 +172,8 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
         })
     }
 
-    /// The same picture, of which only these rows are rendered; rows beyond it are left out.
+    /// The same picture, of which only these rows are rendered; rows beyond it are left out. To be
+    /// said before the first step.
     #[must_use]
     pub fn only_rows(mut self, rows: Range<u32>) -> Self {
         self.rows = rows.start.max(self.rows.start)..rows.end.min(self.rows.end);
