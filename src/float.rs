@@ -97,6 +97,10 @@ macro_rules! float {
                 $math::floor(self) as i64
             }
             #[inline]
+            fn next_up(self) -> Self {
+                $float::next_up(self)
+            }
+            #[inline]
             fn floor(self) -> Self {
                 $math::floor(self)
             }

@@ -77,6 +77,8 @@ pub trait Scalar:
     fn to_unit_bits(self) -> u32;
     /// `⌊self⌋`, saturating at the ends of `i64`.
     fn floor_i64(self) -> i64;
+    /// The next larger number.
+    fn next_up(self) -> Self;
     /// `⌊self⌋` in the same format.
     fn floor(self) -> Self;
     /// Neither infinite nor not-a-number.

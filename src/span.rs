@@ -51,6 +51,16 @@ impl<S: Scalar> Span<S> {
         }
     }
 
+    /// The same span, but not empty: where rounding put both ends in one place, or the exit
+    /// before the entry, the exit is the next number. A thin solid far away stays one.
+    #[inline]
+    pub(crate) fn solid(mut self) -> Self {
+        if self.exit.t <= self.enter.t {
+            self.exit.t = self.enter.t.next_up();
+        }
+        self
+    }
+
     /// It holds at least one point.
     #[inline]
     pub(crate) fn is_open(&self) -> bool {

@@ -5,7 +5,8 @@
 //! (hit or miss) that differ from the exact one; "margin" is how far, in units of
 //! ε·size, the solid has to grow or shrink until the exact decision is the same as ours for
 //! all rays; "ulp" is the greatest error of t in units in the last place, and "geo" the greatest
-//! |t error|·|dir|/size. Solids are exact as the user gave them; a row "stored" takes them from
+//! |t error|·|dir|/size. A chord shorter than that unit is given as one; then only its entry is
+//! measured. Solids are exact as the user gave them; a row "stored" takes them from
 //! the rounded placement instead.
 #![allow(clippy::expect_used, clippy::panic, clippy::indexing_slicing, reason = "tests may panic")]
 #![allow(

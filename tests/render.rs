@@ -209,6 +209,18 @@ fn lists_are_written_with_either_bracket() {
 }
 
 #[test]
+fn marks_before_the_text_and_capital_endings_are_taken() {
+    let plain = scene_of(BALL);
+    let digest = |path: &str| output(&[path, "--size", "16x12", "--digest"]);
+    let expected = digest(&file("plain-text.ron", &plain));
+    assert_eq!(digest(&file("mark.ron", &format!("\u{feff}{plain}"))), expected);
+    assert_eq!(digest(&file("CAPITALS.RON", &plain)), expected);
+    let picture = path("CAPITALS.PPM");
+    output(&[&file("plain-text.ron", &plain), "--size", "4x3", "-o", picture.to_str().unwrap()]);
+    assert!(fs::read(&picture).unwrap().starts_with(b"P6\n4 3\n"));
+}
+
+#[test]
 fn textures_stand_in_any_order() {
     let scene = |textures: &str| {
         format!(

@@ -166,9 +166,12 @@ impl<S: Scalar> Shape<S> {
     /// Of a ray that starts on the shape's own surface only what lies ahead is given.
     ///
     /// A ray in a flat face is inside; one that only touches a curved side or an edge is not.
-    /// A component of the direction whose reciprocal is infinite counts as 0.
+    /// A component of the direction whose reciprocal is infinite counts as 0. No span is empty:
+    /// one that is shorter than the numbers are apart ends at the next number.
     #[inline]
-    pub fn spans(&self, sight: &Sight<'_, S>, emit: impl FnMut(Span<S>)) {
+    pub fn spans(&self, sight: &Sight<'_, S>, mut emit: impl FnMut(Span<S>)) {
+        let open = self.is_open();
+        let emit = |span: Span<S>| emit(if open { span } else { span.solid() });
         each!(self, shape => Primitive::<S>::spans(shape, sight, emit));
     }
 

@@ -53,6 +53,9 @@ impl<S: Scalar> Primitive<S> for Polygon<S> {
 
     fn check(&self, placed: bool, points: &[S::Vec3]) -> Result<(), Flaw> {
         unplaced(placed, "vertices")?;
+        if self.count < 3 {
+            return Err(Flaw::Empty("vertices"));
+        }
         let vertices = self.vertices(points);
         let Some(&first) = vertices.first() else {
             return Err(Flaw::Index("vertices"));
@@ -62,7 +65,7 @@ impl<S: Scalar> Primitive<S> for Polygon<S> {
         }
         check_point::<S>(self.normal, "normal")?;
         let newell = Self::newell(vertices);
-        if vertices.len() < 3 || newell == S::Vec3::ZERO {
+        if newell == S::Vec3::ZERO {
             return Err(Flaw::Empty("vertices"));
         }
         let agrees = (newell - self.normal).max_abs() <= S::from_ratio(1, 1000);

@@ -76,7 +76,12 @@ impl Row {
 
     fn measure<S: Scalar>(&mut self, found: [f64; 2], truth: &[Real; 2], size: f64, ray: Ray<S>) {
         let speed = length(array::<S>(ray.dir));
-        for (t, exact) in found.into_iter().zip(truth) {
+        // What is thinner than the numbers are apart is made as thick: its exit is no measure.
+        let [enter, exit] = found;
+        let [low, high] = truth;
+        let thin = (high - low).to_f64() < ulp::<S>(low.to_f64());
+        let made = thin && exit == S::from_f64(enter).next_up().to_f64();
+        for (t, exact) in found.into_iter().zip(truth).take(if made { 1 } else { 2 }) {
             let rounded = exact.to_f64();
             if t.is_infinite() || rounded.abs() > 1e300 {
                 assert!(t.is_infinite() && rounded.abs() > 1e300, "{t} for {rounded}");

@@ -98,7 +98,9 @@ impl<'de> Visitor<'de> for Seek<'_> {
                 }
             }
         }
-        Err(A::Error::custom("no such field"))
+        // The fields of a variant that is itself what is sought: its name is not given back.
+        let itself = inside.is_some_and(|rest| rest.0.is_empty());
+        Err(A::Error::custom(if itself { FOUND } else { "no such field" }))
     }
 }
 
@@ -139,6 +141,7 @@ mod tests {
         assert_eq!(in_ron("list"), Some(2));
         assert_eq!(in_ron("list[0].a"), Some(3));
         assert_eq!(in_ron("list[1]"), Some(4));
+        assert_eq!(in_ron("list[1].Ball"), Some(7), "where its fields end");
         assert_eq!(in_ron("list[1].Ball.a"), Some(4));
         assert_eq!(in_ron("list[1].Ball.a.Deep[0]"), Some(5));
         assert_eq!(in_ron("list[1].Ball.a.Deep[1].b"), Some(7));

@@ -23,7 +23,7 @@ pub enum Format {
 impl Format {
     /// The format that a file's name asks for.
     pub fn of(path: &Path) -> Option<Self> {
-        match path.extension()?.to_str()? {
+        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
             "png" => Some(Self::Png),
             "ppm" => Some(Self::Ppm),
             "pfm" => Some(Self::Pfm),

@@ -43,6 +43,8 @@ impl std::error::Error for Unreadable {}
 /// # Errors
 /// The first thing that is not as a scene file has it, with its line, column and field.
 pub fn read(text: &str, syntax: Syntax) -> Result<Document, Unreadable> {
+    // Some editors put a mark before the text.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     match syntax {
         Syntax::Ron => read_ron(text),
         Syntax::Json => read_json(text),
@@ -54,7 +56,10 @@ fn read_ron(text: &str) -> Result<Document, Unreadable> {
         line: error.span.start.line,
         column: error.span.start.col,
         path,
-        message: one_line(&error.code.to_string()),
+        message: match error.code {
+            ron::Error::ExceededRecursionLimit => "is nested too deeply".to_owned(),
+            code => one_line(&code.to_string()),
+        },
     };
     let mut from =
         ron::Deserializer::from_str(text).map_err(|error| unreadable(error, String::new()))?;
@@ -75,7 +80,7 @@ fn read_json(text: &str) -> Result<Document, Unreadable> {
         // The place stands in front of the message instead.
         let place = format!(" at line {} column {}", error.line(), error.column());
         let message = one_line(told.strip_suffix(&place).unwrap_or(&told));
-        Unreadable { line: error.line(), column: error.column(), path, message }
+        Unreadable { line: error.line(), column: error.column().max(1), path, message }
     };
     let mut from = serde_json::Deserializer::from_str(text);
     let document = match serde_path_to_error::deserialize(&mut from) {

@@ -75,7 +75,8 @@ impl Source {
     /// A message, if it is neither.
     pub fn find(name: &str) -> Result<Self, String> {
         let path = Path::new(name);
-        let kind = match path.extension().and_then(|ending| ending.to_str()) {
+        let ending = path.extension().and_then(|ending| ending.to_str());
+        let kind = match ending.map(str::to_ascii_lowercase).as_deref() {
             Some("ron") => Kind::Document(Syntax::Ron),
             Some("json") => Kind::Document(Syntax::Json),
             Some("nff") => Kind::Nff,
@@ -149,5 +150,9 @@ fn load_nff<S: Scalar>(name: String, text: &str) -> Result<Loaded<S>, String> {
 
 fn text_of(path: &Path) -> Result<String, String> {
     let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
-    String::from_utf8(bytes).map_err(|_| format!("{}: is not UTF-8 text", path.display()))
+    String::from_utf8(bytes).map_err(|error| {
+        let good = error.as_bytes().iter().take(error.utf8_error().valid_up_to());
+        let line = 1 + good.filter(|&&byte| byte == b'\n').count();
+        format!("{}:{line}: is not UTF-8 text", path.display())
+    })
 }
