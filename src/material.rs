@@ -80,17 +80,9 @@ impl<S: Scalar> Material<S> {
     pub fn matte(color: Rgb<S>) -> Self {
         Self {
             color: Paint::Solid(color),
-            ambient: S::ONE,
             diffuse: S::from_ratio(7, 10),
-            specular: S::ZERO,
             shininess: S::from_i32(32),
-            highlight: Highlight::Phong,
-            metallic: false,
-            reflect: S::ZERO,
-            transmit: S::ZERO,
-            ior: S::ONE,
-            fresnel: Fresnel::Off,
-            absorb: Rgb::BLACK,
+            ..Self::PLAIN
         }
     }
 

@@ -217,23 +217,25 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
         let here = found.media.here();
         let distance = found.hit.map_or(S::FAR, |hit| hit.boundary.t);
         weight = weight * self.scene.absorption(here, distance - after);
-        let surface = found.hit.and_then(|hit| Surface::new(&self.scene, &line, &hit));
-        let Some(surface) = surface else {
+        let Some(hit) = found.hit else {
             self.color += self.scene.parts().background.toward(ray.dir) * weight;
             return;
         };
-        let (object, passage) = surface.crossing();
-        let behind = found.media.behind(object, passage);
-        if surface.is_passed_by(here, behind) {
+        let passage = hit.boundary.passage;
+        let behind = found.media.behind(hit.object, passage);
+        if self.scene.is_hidden(&hit.boundary, [here, behind]) {
             // The same ray goes on behind this boundary, at the same depth: no light is mirrored
             // or refracted here, and no rounding can bring the boundary back.
             self.push(Pending { weight, after: distance, ..pending });
             return;
         }
+        let Some(surface) = Surface::new(&self.scene, &line, &hit.boundary) else {
+            return;
+        };
         let ratio = if passage == Passage::Touch {
             S::ONE
         } else {
-            let other = if behind == here { Some(object) } else { behind };
+            let other = if behind == here { Some(hit.object) } else { behind };
             self.scene.ior(here) / self.scene.ior(other)
         };
         let branches = surface.branches(ray.dir, weight, ratio);

@@ -4,7 +4,7 @@ use crate::color::Rgb;
 use crate::material::{Highlight, Material};
 use crate::ray::{Line, Ray, Start};
 use crate::scalar::{Scalar, Vector};
-use crate::scene::{Hit, Scene};
+use crate::scene::Scene;
 use crate::solid::Contact;
 use crate::span::{Boundary, End, Passage};
 use crate::stats::{Event, Tally};
@@ -19,7 +19,6 @@ pub(crate) struct Surface<'a, S: Scalar> {
     node: u32,
     face: u16,
     passage: Passage,
-    object: u32,
     /// The viewer is on the inner side of the leaf.
     from_within: bool,
     /// The unit normal of the geometry, to the viewer's side.
@@ -45,9 +44,13 @@ pub(crate) struct Branches<S: Scalar> {
 }
 
 impl<'a, S: Scalar> Surface<'a, S> {
-    /// The surface at a hit; `None` only for a hit that is not of this scene.
-    pub(crate) fn new(scene: &Scene<'a, S>, line: &Line<S>, hit: &Hit<S>) -> Option<Self> {
-        let Boundary { t, node, face, passage, inverted } = hit.boundary;
+    /// The surface at a boundary; `None` only for one that is not of this scene.
+    pub(crate) fn new(
+        scene: &Scene<'a, S>,
+        line: &Line<S>,
+        boundary: &Boundary<S>,
+    ) -> Option<Self> {
+        let Boundary { t, node, face, passage, inverted } = *boundary;
         let geometry = scene.geometry();
         let leaf = geometry.leaf(node)?;
         let material = scene.material(leaf.material)?;
@@ -68,19 +71,7 @@ impl<'a, S: Scalar> Surface<'a, S> {
         };
         let color = textures.color(material.color, &Spot { position: contact.position, uv });
         let shading = scene.shading_normal(leaf, contact.position, normal);
-        let object = hit.object;
-        Some(Self {
-            material,
-            color,
-            contact,
-            node,
-            face,
-            passage,
-            object,
-            from_within,
-            normal,
-            shading,
-        })
+        Some(Self { material, color, contact, node, face, passage, from_within, normal, shading })
     }
 
     fn start(&self, other_side: bool) -> Start<S> {
@@ -153,16 +144,6 @@ impl<'a, S: Scalar> Surface<'a, S> {
             Highlight::Blinn => self.shading.dot((toward - view).normalize()),
         };
         cosine.min(S::ONE)
-    }
-
-    /// The light only passes: what rules the space is the same on both sides.
-    pub(crate) fn is_passed_by(&self, here: Option<u32>, behind: Option<u32>) -> bool {
-        self.passage != Passage::Touch && self.material.is_transparent() && here == behind
-    }
-
-    /// Which side of which object the ray goes through.
-    pub(crate) fn crossing(&self) -> (u32, Passage) {
-        (self.object, self.passage)
     }
 
     /// The mirrored and the refracted ray for a ray of direction `view` and a weight; `ratio`

@@ -105,19 +105,25 @@ impl<'a, S: Scalar> Geometry<'a, S> {
         }
     }
 
+    /// The point of a ray at `t`, in the coordinates of a leaf.
+    #[inline]
+    fn local_at(&self, line: &Line<S>, leaf: &Leaf<S>, t: S) -> S::Vec3 {
+        match self.placement(leaf) {
+            None => line.recentred(leaf.shape.centre(), t),
+            Some(place) => apply::<S>(&place.to_local, line.recentred(place.anchor, t)),
+        }
+    }
+
     /// The point where a ray meets a face of a leaf, drawn onto the surface.
     pub(crate) fn contact(&self, line: &Line<S>, leaf: &Leaf<S>, end: End<S>) -> Contact<S> {
         let shape = &leaf.shape;
-        let Some(place) = self.placement(leaf) else {
-            let centre = shape.centre();
-            let local = shape.snap(line.recentred(centre, end.t), end.face);
-            let normal = shape.normal(local, end.face, self.points).normalize();
-            return Contact { local, position: local + centre, normal };
+        let local = shape.snap(self.local_at(line, leaf, end.t), end.face);
+        let normal = shape.normal(local, end.face, self.points);
+        let (position, normal) = match self.placement(leaf) {
+            None => (local + shape.centre(), normal),
+            Some(place) => (place.point(local), place.normal(normal)),
         };
-        let near = apply::<S>(&place.to_local, line.recentred(place.anchor, end.t));
-        let local = shape.snap(near, end.face);
-        let normal = place.normal(shape.normal(local, end.face, self.points)).normalize();
-        Contact { local, position: place.point(local), normal }
+        Contact { local, position, normal: normal.normalize() }
     }
 
     /// How far rounding may move the surface of a leaf along its normal, in units of
@@ -150,11 +156,7 @@ impl<'a, S: Scalar> Geometry<'a, S> {
         let Some(leaf) = self.leaf(boundary.node) else {
             return S::ZERO;
         };
-        let near = match self.placement(leaf) {
-            None => line.recentred(leaf.shape.centre(), boundary.t),
-            Some(place) => apply::<S>(&place.to_local, line.recentred(place.anchor, boundary.t)),
-        };
-        let local = leaf.shape.snap(near, boundary.face);
+        let local = leaf.shape.snap(self.local_at(line, leaf, boundary.t), boundary.face);
         let [moved, speed] = self.uncertainty(line, leaf, local, boundary.face);
         let speed = speed.max(least_speed(line));
         (boundary.t.abs() * S::TWO + moved / speed) * S::EPSILON

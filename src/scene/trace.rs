@@ -292,6 +292,18 @@ impl<'a, S: Scalar> Scene<'a, S> {
         share
     }
 
+    /// A transparent surface that does not show: what rules the space is the same on both sides.
+    pub(crate) fn is_hidden(
+        &self,
+        boundary: &Boundary<S>,
+        [here, behind]: [Option<u32>; 2],
+    ) -> bool {
+        let material = self.geometry().leaf(boundary.node).and_then(|l| self.material(l.material));
+        boundary.passage != Passage::Touch
+            && here == behind
+            && material.is_some_and(Material::is_transparent)
+    }
+
     /// The share of light left after a length of what fills an object.
     pub(crate) fn absorption(&self, medium: Option<u32>, length: S) -> Rgb<S> {
         let object = medium.and_then(|index| self.parts.objects.get(index as usize));

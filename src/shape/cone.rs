@@ -155,8 +155,8 @@ impl<S: Scalar> Primitive<S> for Cone<S> {
         tube_bounds(place, self.center, self.half_height, self.radius_max())
     }
 
-    /// The quadric x² + z² = (m + s·y)² in the plane across the axis, about the tip where
-    /// there is one, with the discriminant as a sum of squares; the nappe that holds the frustum, clipped by the caps.
+    /// The quadric of the side in the plane across the axis, with the discriminant as a sum of
+    /// squares; the nappe that holds the frustum, clipped by the caps.
     #[inline]
     fn spans(&self, sight: &Sight<'_, S>, mut emit: impl FnMut(Span<S>)) {
         if let Some(start) = sight.start {

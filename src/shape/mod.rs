@@ -132,15 +132,29 @@ macro_rules! each {
     };
 }
 
+macro_rules! of_kind {
+    ($shape:expr, $constant:ident) => {
+        match $shape {
+            Shape::Sphere(_) => <Sphere<S> as Primitive<S>>::$constant,
+            Shape::Plane(_) => <Plane<S> as Primitive<S>>::$constant,
+            Shape::Box(_) => <Cuboid<S> as Primitive<S>>::$constant,
+            Shape::Cylinder(_) => <Cylinder<S> as Primitive<S>>::$constant,
+            Shape::Cone(_) => <Cone<S> as Primitive<S>>::$constant,
+            Shape::Triangle(_) => <Triangle as Primitive<S>>::$constant,
+            Shape::Polygon(_) => <Polygon<S> as Primitive<S>>::$constant,
+        }
+    };
+}
+
 impl<S: Scalar> Shape<S> {
     /// A surface without an inside.
     pub const fn is_open(&self) -> bool {
-        matches!(self, Self::Triangle(_) | Self::Polygon(_))
+        of_kind!(self, OPEN)
     }
 
     /// The greatest number of spans along any ray.
     pub const fn spans_max(&self) -> u16 {
-        1
+        of_kind!(self, SPANS_MAX)
     }
 
     /// Where the local coordinates of an unplaced shape have their origin.
