@@ -20,11 +20,11 @@ pub enum Background<S> {
 impl<S: Scalar> Background<S> {
     /// The light from a unit direction.
     #[inline]
-    pub fn toward(&self, dir: S::Vec3) -> Rgb<S> {
+    pub fn toward(&self, dir: S::Dir) -> Rgb<S> {
         match *self {
             Self::Constant(color) => color,
             Self::Gradient { bottom, top } => {
-                let share = ((dir.y() + S::ONE) * S::HALF).clamp(S::ZERO, S::ONE);
+                let share = ((S::from_unit(dir.y()) + S::ONE) * S::HALF).clamp(S::ZERO, S::ONE);
                 bottom * (S::ONE - share) + top * share
             }
         }

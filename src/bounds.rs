@@ -1,7 +1,7 @@
 //! Boxes around solids, to skip what a ray cannot meet.
 
 use crate::ray::Line;
-use crate::scalar::{Scalar, Vector};
+use crate::scalar::{Real, Scalar, Vector};
 
 /// An axis-aligned box that holds a solid, rounding included. A bound may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,13 +28,13 @@ impl<S: Scalar> Bounds<S> {
     /// The box about `centre` that reaches `extent` to either side, widened by what rounding
     /// may have taken from either.
     pub fn about(centre: S::Vec3, extent: S::Vec3) -> Self {
-        let widened = centre.zip(extent, |c, e| (c.abs() + e) * S::EPSILON * S::from_i32(16) + e);
+        let widened = centre.zip(extent, |c, e| slack(c.abs() + e) + e);
         Self { min: centre - widened, max: centre + widened }
     }
 
     /// The box between two corners, widened by what rounding may have taken.
     pub fn between(min: S::Vec3, max: S::Vec3) -> Self {
-        let slack = min.zip(max, |a, b| a.abs().max(b.abs()) * S::EPSILON * S::from_i32(16));
+        let slack = min.zip(max, |a, b| slack(a.abs().max(b.abs())));
         Self { min: min - slack, max: max + slack }
     }
 
@@ -77,20 +77,26 @@ impl<S: Scalar> Bounds<S> {
     #[inline]
     pub fn meets(&self, line: &Line<S>, t_max: S) -> bool {
         let (mut enter, mut exit) = (S::ZERO, t_max);
-        let mut slab = |min: S, max: S, origin: S, inv: S| {
-            let (a, b) = ((min - origin) * inv, (max - origin) * inv);
-            let (near, far) = if inv < S::ZERO { (b, a) } else { (a, b) };
-            // A ray in the plane of a side gives 0·∞, which compares as neither.
-            if near > enter {
-                enter = near;
+        let [x, y, z] = line.inv_dir;
+        let mut slab = |min: S, max: S, origin: S, inv: S::Inverse| {
+            if S::is_parallel(inv) {
+                return min <= origin && origin <= max;
             }
-            if far < exit {
-                exit = far;
-            }
+            let (a, b) = (S::quotient(min, origin, inv), S::quotient(max, origin, inv));
+            let (near, far) = if S::is_backward(inv) { (b, a) } else { (a, b) };
+            enter = enter.max(near);
+            exit = exit.min(far);
+            true
         };
-        slab(self.min.x(), self.max.x(), line.origin.x(), line.inv_dir.x());
-        slab(self.min.y(), self.max.y(), line.origin.y(), line.inv_dir.y());
-        slab(self.min.z(), self.max.z(), line.origin.z(), line.inv_dir.z());
-        enter <= exit + exit * (S::EPSILON * S::from_i32(4))
+        slab(self.min.x(), self.max.x(), line.origin.x(), x)
+            && slab(self.min.y(), self.max.y(), line.origin.y(), y)
+            && slab(self.min.z(), self.max.z(), line.origin.z(), z)
+            && enter <= exit + slack(exit)
     }
+}
+
+/// More than rounding can have made of a number of this magnitude.
+#[inline]
+fn slack<S: Scalar>(magnitude: S) -> S {
+    S::narrow(S::rounding(magnitude.widen()) * S::Wide::from_i32(16))
 }

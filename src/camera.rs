@@ -2,7 +2,7 @@
 
 use crate::place::sin_cos_degrees;
 use crate::ray::Ray;
-use crate::scalar::{Scalar, Vector};
+use crate::scalar::{Number, Real, Scalar, Vector};
 
 /// What is seen from where.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,12 +55,13 @@ impl<S: Scalar> Camera<S> {
                 return Err(CameraFlaw::Range(field));
             }
         }
-        let forward = (self.look_at - self.eye).normalize();
-        if forward == S::Vec3::ZERO {
+        let forward = (S::widen_vec(self.look_at) - S::widen_vec(self.eye)).normalize();
+        if forward == S::WideVec::ZERO {
             return Err(CameraFlaw::Empty("look_at"));
         }
         // `up` within rounding of the line of sight leaves the picture free to turn.
-        if !(forward.cross(self.up.normalize()).length() > S::EPSILON * S::from_i32(16)) {
+        let up = S::widen_vec(self.up).normalize();
+        if !(forward.cross(up).length() > S::EPSILON.widen() * S::Wide::from_i32(16)) {
             return Err(CameraFlaw::Empty("up"));
         }
         match self.projection {
@@ -85,11 +86,11 @@ impl<S: Scalar> Camera<S> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens<S: Scalar> {
     eye: S::Vec3,
-    forward: S::Vec3,
+    forward: S::WideVec,
     /// From the middle of the picture to its right edge, at distance 1 (or on the film).
-    right: S::Vec3,
+    right: S::WideVec,
     /// From the middle of the picture to its upper edge.
-    up: S::Vec3,
+    up: S::WideVec,
     parallel: bool,
     width: u32,
     height: u32,
@@ -98,17 +99,17 @@ pub struct Lens<S: Scalar> {
 impl<S: Scalar> Lens<S> {
     /// The rays of a camera for a picture of so many square pixels.
     pub fn new(camera: &Camera<S>, width: u32, height: u32) -> Self {
-        let forward = (camera.look_at - camera.eye).normalize();
-        let right = forward.cross(camera.up).normalize();
+        let forward = (S::widen_vec(camera.look_at) - S::widen_vec(camera.eye)).normalize();
+        let right = forward.cross(S::widen_vec(camera.up)).normalize();
         let up = right.cross(forward);
         let (half, parallel) = match camera.projection {
             Projection::Pinhole { fov } => {
-                let (sin, cos) = sin_cos_degrees(fov * S::HALF);
+                let (sin, cos) = sin_cos_degrees::<S>(fov * S::HALF);
                 (sin / cos, false)
             }
-            Projection::Orthographic { height } => (height * S::HALF, true),
+            Projection::Orthographic { height } => (height.widen() * S::Wide::HALF, true),
         };
-        let aspect = S::from_ratio(width as i32, height as i32);
+        let aspect = S::Wide::from_ratio(width as i32, height as i32);
         Self {
             eye: camera.eye,
             forward,
@@ -126,16 +127,16 @@ impl<S: Scalar> Lens<S> {
     pub fn ray(&self, x: u32, y: u32, offset: [S; 2]) -> Ray<S> {
         // (2·(x + offset) − width) / width: the whole numbers cancel before they are rounded.
         let across = |index: u32, size: u32, offset: S| {
-            let doubled = 2 * index as i32 - size as i32;
-            (S::from_i32(doubled) + offset * S::TWO) / S::from_i32(size as i32)
+            let doubled = S::Wide::from_i32(2 * index as i32 - size as i32);
+            (doubled + offset.widen() * S::Wide::TWO) / S::Wide::from_i32(size as i32)
         };
         let h = across(x, self.width, offset[0]);
         let v = -across(y, self.height, offset[1]);
         let aside = self.right * h + self.up * v;
         if self.parallel {
-            Ray { origin: self.eye + aside, dir: self.forward }
+            Ray { origin: self.eye + S::narrow_vec(aside), dir: S::narrow_dir(self.forward) }
         } else {
-            Ray { origin: self.eye, dir: (self.forward + aside).normalize() }
+            Ray { origin: self.eye, dir: S::unit(self.forward + aside) }
         }
     }
 }

@@ -4,7 +4,7 @@
 //! the path of a ray; IEEE 754 makes these the same everywhere.
 
 use crate::math::{double, single};
-use crate::scalar::{Scalar, Vector};
+use crate::scalar::{Number, Real, Scalar, Vector};
 
 /// Dekker's split of each coordinate of a direction into two halves that multiply exactly.
 #[derive(Clone, Copy, Debug)]
@@ -49,23 +49,23 @@ macro_rules! float {
             }
         }
 
-        impl Scalar for $float {
-            type Vec3 = $vec;
-            type Aim = SplitDir<$float>;
-            type Bytes = [u8; $bytes];
-
-            const NAME: &'static str = $name;
+        impl Number for $float {
             const ZERO: Self = 0.0;
             const HALF: Self = 0.5;
             const ONE: Self = 1.0;
+
+            #[inline]
+            fn is_finite(self) -> bool {
+                self - self == 0.0
+            }
+        }
+
+        impl Real for $float {
             const TWO: Self = 2.0;
             const PI: Self = core::$float::consts::PI;
             const EPSILON: Self = $float::EPSILON;
-            const EPSILON_ROOT: Self = $root;
             const FAR: Self = $float::INFINITY;
             const TINY: Self = $float::MIN_POSITIVE;
-            const COORD_MAX: Self = $coord;
-            const LENGTH_MIN: Self = $length;
 
             #[inline]
             fn from_i32(n: i32) -> Self {
@@ -84,6 +84,42 @@ macro_rules! float {
                 self.into()
             }
             #[inline]
+            fn sqrt(self) -> Self {
+                if self > 0.0 { $math::sqrt(self) } else { 0.0 }
+            }
+            fn sin_cos(self) -> (Self, Self) {
+                $math::sin_cos(self)
+            }
+            fn atan2(self, x: Self) -> Self {
+                $math::atan2(self, x)
+            }
+            fn acos(self) -> Self {
+                $math::acos(Number::clamp(self, -1.0, 1.0))
+            }
+            fn exp(self) -> Self {
+                $math::exp(self)
+            }
+            fn pow(self, e: Self) -> Self {
+                $math::pow(self, e)
+            }
+        }
+
+        impl Scalar for $float {
+            type Vec3 = $vec;
+            type Unit = $float;
+            type Dir = $vec;
+            type Wide = $float;
+            type WideVec = $vec;
+            type Inverse = $float;
+            type Aim = SplitDir<$float>;
+            type Bytes = [u8; $bytes];
+
+            const NAME: &'static str = $name;
+            const EPSILON_ROOT: Self = $root;
+            const COORD_MAX: Self = $coord;
+            const LENGTH_MIN: Self = $length;
+
+            #[inline]
             fn to_le_bytes(self) -> Self::Bytes {
                 self.to_bits().to_le_bytes()
             }
@@ -97,35 +133,85 @@ macro_rules! float {
                 $math::floor(self) as i64
             }
             #[inline]
-            fn next_up(self) -> Self {
-                $float::next_up(self)
-            }
-            #[inline]
             fn floor(self) -> Self {
                 $math::floor(self)
             }
             #[inline]
-            fn is_finite(self) -> bool {
-                self - self == 0.0
+            fn next_up(self) -> Self {
+                $float::next_up(self)
+            }
+
+            #[inline]
+            fn widen(self) -> Self {
+                self
             }
             #[inline]
-            fn sqrt(self) -> Self {
-                if self > 0.0 { $math::sqrt(self) } else { 0.0 }
+            fn narrow(wide: Self) -> Self {
+                wide
             }
-            fn sin_cos(self) -> (Self, Self) {
-                $math::sin_cos(self)
+            #[inline]
+            fn to_unit(self) -> Self {
+                self
             }
-            fn atan2(self, x: Self) -> Self {
-                $math::atan2(self, x)
+            #[inline]
+            fn from_unit(unit: Self) -> Self {
+                unit
             }
-            fn acos(self) -> Self {
-                $math::acos(Scalar::clamp(self, -1.0, 1.0))
+            #[inline]
+            fn widen_unit(unit: Self) -> Self {
+                unit
             }
-            fn exp(self) -> Self {
-                $math::exp(self)
+            #[inline]
+            fn narrow_unit(wide: Self) -> Self {
+                wide
             }
-            fn pow(self, e: Self) -> Self {
-                $math::pow(self, e)
+
+            #[inline]
+            fn unit(v: $vec) -> $vec {
+                Vector::normalize(v)
+            }
+            #[inline]
+            fn toward(v: $vec) -> ($vec, Self) {
+                let length = Vector::length(v);
+                if length == 0.0 { (v, length) } else { (v * (1.0 / length), length) }
+            }
+            #[inline]
+            fn steer(v: $vec) -> ($vec, Self) {
+                (v, 1.0)
+            }
+            #[inline]
+            fn plane(normal: $vec, offset: Self) -> ($vec, Self) {
+                (normal, offset)
+            }
+            #[inline]
+            fn along(dir: $vec, t: Self) -> $vec {
+                dir * t
+            }
+            #[inline]
+            fn mirror(v: $vec, normal: $vec, cosine: Self) -> $vec {
+                v - normal * (cosine * 2.0)
+            }
+
+            #[inline]
+            fn reciprocal(d: Self) -> Self {
+                1.0 / d
+            }
+            #[inline]
+            fn is_parallel(inverse: Self) -> bool {
+                !Number::is_finite(inverse)
+            }
+            #[inline]
+            fn is_backward(inverse: Self) -> bool {
+                inverse < 0.0
+            }
+            #[inline]
+            fn quotient(to: Self, from: Self, inverse: Self) -> Self {
+                (to - from) * inverse
+            }
+
+            #[inline]
+            fn rounding(magnitude: Self) -> Self {
+                magnitude * $float::EPSILON
             }
 
             #[inline]
@@ -148,7 +234,7 @@ macro_rules! float {
                 sum + ((x_error + y_error + z_error) + (xy_error + sum_error))
             }
 
-            fn precedes([a, o, d]: [Self; 3], [b, p, e]: [Self; 3]) -> bool {
+            fn precedes((a, o, d): (Self, Self, Self), (b, p, e): (Self, Self, Self)) -> bool {
                 // The sign of (a − o)·e − (b − p)·d, turned round where d·e < 0.
                 let ((f, f_low), (g, g_low)) = ($float::two_sum(a, -o), $float::two_sum(b, -p));
                 let products = [(f, e), (f_low, e), (-g, d), (-g_low, d)];
@@ -169,6 +255,24 @@ macro_rules! float {
             fn aim(dir: $vec) -> SplitDir<$float> {
                 let [x, y, z] = dir.to_array().map($float::split);
                 SplitDir { high: [x.0, y.0, z.0], low: [x.1, y.1, z.1] }
+            }
+
+            #[inline]
+            fn heading(dir: $vec, _: &SplitDir<$float>) -> $vec {
+                dir
+            }
+            #[inline]
+            fn approach(origin: $vec, centre: $vec, dir: $vec, inv_dd: Self) -> Self {
+                -Vector::dot(origin - centre, dir) * inv_dd
+            }
+            #[inline]
+            fn may_pass(origin: $vec, centre: $vec, dir: $vec, inv_dd: Self, radius: Self) -> bool {
+                let from = origin - centre;
+                let nearest = from - dir * (Vector::dot(from, dir) * inv_dd);
+                let reach = Number::abs(from.x) + Number::abs(from.y) + Number::abs(from.z);
+                // What rounding may have added to the distance.
+                let distance = radius + reach * ($float::EPSILON * 16.0);
+                Vector::length_squared(nearest) <= distance * distance
             }
 
             #[inline]

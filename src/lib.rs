@@ -21,6 +21,8 @@
 pub mod scalar;
 
 mod float;
+
+pub mod fixed_point;
 mod math;
 
 pub mod ray;
@@ -62,13 +64,15 @@ pub use bounds::Bounds;
 pub use camera::{Camera, Projection};
 pub use color::{Rgb, Transfer};
 pub use error::{Item, SceneError};
+pub use fixed;
+pub use fixed_point::{Q16, Q32};
 pub use glam;
 pub use light::{Attenuation, Light, Spotlight};
 pub use material::{Fresnel, Highlight, Material};
 pub use place::{Affine, Placement};
 pub use ray::Ray;
 pub use render::{Depth, Pixel, Render, Step};
-pub use scalar::{Axis, Scalar, Vector};
+pub use scalar::{Axis, Number, Real, Scalar, Vector};
 pub use scene::{Fixed, Form, Hit, Limits, Object, Parts, Scene, SceneBuilder, Storage, Store};
 pub use shape::{Cone, Cuboid, Cylinder, Plane, Polygon, Shape, Sphere, Triangle};
 pub use solid::{Leaf, Node};

@@ -32,7 +32,7 @@ impl<S: Scalar> Attenuation<S> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spotlight<S: Scalar> {
     /// The axis of the cones, of unit length, away from the light.
-    pub axis: S::Vec3,
+    pub axis: S::Dir,
     /// The cosine of the half angle within which the light is full.
     pub cos_inner: S,
     /// The cosine of the half angle beyond which there is none; less than `cos_inner`.
@@ -42,8 +42,8 @@ pub struct Spotlight<S: Scalar> {
 impl<S: Scalar> Spotlight<S> {
     /// The share of the light in a direction away from it, smooth from 0 to 1.
     #[inline]
-    fn at(&self, away: S::Vec3) -> S {
-        let cosine = self.axis.dot(away);
+    fn at(&self, away: S::Dir) -> S {
+        let cosine = S::from_unit(self.axis.dot(away));
         if cosine <= self.cos_outer {
             S::ZERO
         } else if cosine >= self.cos_inner {
@@ -70,7 +70,7 @@ pub enum Light<S: Scalar> {
     /// Parallel light from infinitely far.
     Directional {
         /// Where the light goes, of unit length.
-        toward: S::Vec3,
+        toward: S::Dir,
         /// Its intensity.
         color: Rgb<S>,
     },
@@ -91,7 +91,7 @@ pub enum Light<S: Scalar> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Illumination<S: Scalar> {
     /// The unit direction to the light.
-    pub toward: S::Vec3,
+    pub toward: S::Dir,
     /// How far the light is.
     pub distance: S,
     /// What arrives if nothing stands between.
@@ -109,12 +109,10 @@ impl<S: Scalar> Light<S> {
             Self::Point { at, color, attenuation } => (*at, *color, attenuation, None),
             Self::Spot { at, cone, color, attenuation } => (*at, *color, attenuation, Some(cone)),
         };
-        let to_light = at - point;
-        let distance = to_light.length();
+        let (toward, distance) = S::toward(at - point);
         if distance == S::ZERO {
             return None;
         }
-        let toward = to_light * (S::ONE / distance);
         let share = cone.map_or(S::ONE, |cone| cone.at(-toward));
         if share == S::ZERO {
             return None;

@@ -1,7 +1,7 @@
 //! What a surface does with light.
 
 use crate::color::Rgb;
-use crate::scalar::Scalar;
+use crate::scalar::{Number, Real, Scalar};
 use crate::texture::Paint;
 
 /// The shape of a highlight.
@@ -94,31 +94,34 @@ impl<S: Scalar> Material<S> {
 
     /// The highlight for a cosine: cosine^shininess.
     #[inline]
-    pub(crate) fn lobe(&self, cosine: S) -> S {
+    pub(crate) fn lobe(&self, cosine: S::Unit) -> S {
         let whole = self.shininess.floor_i64();
         match u16::try_from(whole) {
-            Ok(n) if S::from_i32(i32::from(n)) == self.shininess => cosine.powi(u32::from(n)),
-            _ => cosine.pow(self.shininess),
+            Ok(n) if S::from_i32(i32::from(n)) == self.shininess => {
+                S::from_unit(cosine.powi(u32::from(n)))
+            }
+            _ => S::narrow(S::widen_unit(cosine).pow(self.shininess.widen())),
         }
     }
 
     /// The share of light that a smooth boundary between two media reflects; `cos_in` and
     /// `cos_out` are the cosines to the normal on the two sides, `ratio` = n₁/n₂.
-    pub(crate) fn reflectance(&self, cos_in: S, cos_out: S, ratio: S) -> S {
+    pub(crate) fn reflectance(&self, cos_in: S::Wide, cos_out: S::Wide, ratio: S::Wide) -> S::Wide {
+        let one = S::Wide::ONE;
         match self.fresnel {
-            Fresnel::Off => S::ZERO,
+            Fresnel::Off => S::Wide::ZERO,
             // Nothing to reflect at, which the approximation does not know.
-            _ if ratio == S::ONE => S::ZERO,
+            _ if ratio == one => S::Wide::ZERO,
             Fresnel::Schlick => {
-                let zero = ((ratio - S::ONE) / (ratio + S::ONE)).squared();
+                let zero = ((ratio - one) / (ratio + one)).squared();
                 // From the denser side the angle that matters is the one outside.
-                let cosine = if ratio > S::ONE { cos_out } else { cos_in };
-                zero + (S::ONE - zero) * (S::ONE - cosine).powi(5)
+                let cosine = if ratio > one { cos_out } else { cos_in };
+                zero + (one - zero) * (one - cosine).powi(5)
             }
             Fresnel::Exact => {
                 let s = (ratio * cos_in - cos_out) / (ratio * cos_in + cos_out);
                 let p = (ratio * cos_out - cos_in) / (ratio * cos_out + cos_in);
-                (s.squared() + p.squared()) * S::HALF
+                (s.squared() + p.squared()) * S::Wide::HALF
             }
         }
     }

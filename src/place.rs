@@ -1,21 +1,21 @@
 //! Placement: where a solid stands, and the way between its own coordinates and the scene's.
 
 use crate::ray::Line;
-use crate::scalar::{Axis, Scalar, Vector};
+use crate::scalar::{Axis, Number, Real, Scalar, Vector};
 
 /// Three rows of a matrix.
-pub type Rows<S> = [<S as Scalar>::Vec3; 3];
+pub type Rows<S> = [<S as Scalar>::WideVec; 3];
 
 /// `rows · v`.
 #[inline]
-pub(crate) fn apply<S: Scalar>(rows: &Rows<S>, v: S::Vec3) -> S::Vec3 {
+pub(crate) fn apply<S: Scalar>(rows: &Rows<S>, v: S::WideVec) -> S::WideVec {
     let [a, b, c] = *rows;
-    S::Vec3::new(a.dot(v), b.dot(v), c.dot(v))
+    S::WideVec::new(a.dot(v), b.dot(v), c.dot(v))
 }
 
 /// `rowsᵀ · v`.
 #[inline]
-pub(crate) fn apply_transposed<S: Scalar>(rows: &Rows<S>, v: S::Vec3) -> S::Vec3 {
+pub(crate) fn apply_transposed<S: Scalar>(rows: &Rows<S>, v: S::WideVec) -> S::WideVec {
     let [a, b, c] = *rows;
     a * v.x() + b * v.y() + c * v.z()
 }
@@ -23,12 +23,12 @@ pub(crate) fn apply_transposed<S: Scalar>(rows: &Rows<S>, v: S::Vec3) -> S::Vec3
 fn transpose<S: Scalar>(rows: &Rows<S>) -> Rows<S> {
     Axis::ALL.map(|axis| {
         let [a, b, c] = rows.map(|row| row.get(axis));
-        S::Vec3::new(a, b, c)
+        S::WideVec::new(a, b, c)
     })
 }
 
 fn identity<S: Scalar>() -> Rows<S> {
-    Axis::ALL.map(|axis| S::Vec3::ZERO.with(axis, S::ONE))
+    Axis::ALL.map(|axis| S::WideVec::ZERO.with(axis, S::Wide::ONE))
 }
 
 /// An affine map: `rows · p + offset`.
@@ -37,24 +37,24 @@ pub struct Affine<S: Scalar> {
     /// The linear part.
     pub rows: Rows<S>,
     /// The translation, applied last.
-    pub offset: S::Vec3,
+    pub offset: S::WideVec,
 }
 
 impl<S: Scalar> Affine<S> {
     /// The map that changes nothing.
     pub fn identity() -> Self {
-        Self { rows: identity::<S>(), offset: S::Vec3::ZERO }
+        Self { rows: identity::<S>(), offset: S::WideVec::ZERO }
     }
 
     /// A translation.
     pub fn translate(by: S::Vec3) -> Self {
-        Self { offset: by, ..Self::identity() }
+        Self { offset: S::widen_vec(by), ..Self::identity() }
     }
 
     /// A scale by a factor along each axis.
     pub fn scale(by: S::Vec3) -> Self {
         let mut affine = Self::identity();
-        for (row, factor) in affine.rows.iter_mut().zip(by.to_array()) {
+        for (row, factor) in affine.rows.iter_mut().zip(S::widen_vec(by).to_array()) {
             *row = *row * factor;
         }
         affine
@@ -63,14 +63,14 @@ impl<S: Scalar> Affine<S> {
     /// A right-handed rotation about a coordinate axis, by an angle in degrees. Multiples of
     /// 90 degrees are exact.
     pub fn rotate(axis: Axis, degrees: S) -> Self {
-        let (sin, cos) = sin_cos_degrees(degrees);
+        let (sin, cos) = sin_cos_degrees::<S>(degrees);
         let (u, v) = (axis.next(), axis.next().next());
         let mut affine = Self::identity();
         for (row, of) in affine.rows.iter_mut().zip(Axis::ALL) {
             if of == u {
-                *row = S::Vec3::ZERO.with(u, cos).with(v, -sin);
+                *row = S::WideVec::ZERO.with(u, cos).with(v, -sin);
             } else if of == v {
-                *row = S::Vec3::ZERO.with(u, sin).with(v, cos);
+                *row = S::WideVec::ZERO.with(u, sin).with(v, cos);
             }
         }
         affine
@@ -83,19 +83,29 @@ impl<S: Scalar> Affine<S> {
         Self {
             rows: next.rows.map(|row| {
                 let [a, b, c] = columns.map(|column| row.dot(column));
-                S::Vec3::new(a, b, c)
+                S::WideVec::new(a, b, c)
             }),
-            offset: next.point(self.offset),
+            offset: next.wide_point(self.offset),
         }
     }
 
     /// Where a point goes.
     pub fn point(&self, p: S::Vec3) -> S::Vec3 {
+        S::narrow_vec(self.wide_point(S::widen_vec(p)))
+    }
+
+    /// Where a point goes that is not rounded yet.
+    pub(crate) fn wide_point(&self, p: S::WideVec) -> S::WideVec {
         apply::<S>(&self.rows, p) + self.offset
     }
 
+    /// Every number is finite.
+    pub(crate) fn is_finite(&self) -> bool {
+        self.rows.iter().chain([&self.offset]).all(|row| row.is_finite())
+    }
+
     /// The determinant of the linear part.
-    pub fn determinant(&self) -> S {
+    pub fn determinant(&self) -> S::Wide {
         let [a, b, c] = self.rows;
         a.dot(b.cross(c))
     }
@@ -106,12 +116,12 @@ impl<S: Scalar> Affine<S> {
         let [a, b, c] = self.rows;
         let det = self.determinant();
         let size = a.length() * b.length() * c.length();
-        let least = size * S::EPSILON * S::from_i32(4);
+        let least = size * S::Wide::EPSILON * S::Wide::from_i32(4);
         let invertible = size.is_finite() && det.abs() > least;
         if !invertible {
             return None;
         }
-        let inverse = S::ONE / det;
+        let inverse = S::Wide::ONE / det;
         let columns = [b.cross(c) * inverse, c.cross(a) * inverse, a.cross(b) * inverse];
         let finite = columns.iter().all(|column| column.is_finite());
         finite.then(|| transpose::<S>(&columns))
@@ -119,32 +129,33 @@ impl<S: Scalar> Affine<S> {
 
     /// The factor of a similarity (rotation, reflection and one scale), or `None` where
     /// lengths change by different factors in different directions.
-    pub fn similarity(&self) -> Option<S> {
+    pub fn similarity(&self) -> Option<S::Wide> {
         let [a, b, c] = transpose::<S>(&self.rows);
         let (aa, bb, cc) = (a.length_squared(), b.length_squared(), c.length_squared());
-        let within = aa * S::EPSILON * S::from_i32(16);
-        let right = |u: S::Vec3, v: S::Vec3| u.dot(v).abs() <= within;
-        let equal = |u: S, v: S| (u - v).abs() <= within;
+        let within = aa * S::Wide::EPSILON * S::Wide::from_i32(16);
+        let right = |u: S::WideVec, v: S::WideVec| u.dot(v).abs() <= within;
+        let equal = |u: S::Wide, v: S::Wide| (u - v).abs() <= within;
         (equal(aa, bb) && equal(aa, cc) && right(a, b) && right(b, c) && right(c, a))
             .then(|| if bb == aa && cc == aa { aa.sqrt() } else { a.length() })
     }
 }
 
 /// Sine and cosine of an angle in degrees; exact at multiples of 90.
-pub(crate) fn sin_cos_degrees<S: Scalar>(degrees: S) -> (S, S) {
+pub(crate) fn sin_cos_degrees<S: Scalar>(degrees: S) -> (S::Wide, S::Wide) {
+    let (zero, one) = (S::Wide::ZERO, S::Wide::ONE);
     let turn = S::from_i32(360);
     let reduced = degrees - (degrees / turn).floor() * turn;
     let quarter = S::from_i32(90);
     if reduced == S::ZERO {
-        (S::ZERO, S::ONE)
+        (zero, one)
     } else if reduced == quarter {
-        (S::ONE, S::ZERO)
+        (one, zero)
     } else if reduced == quarter * S::TWO {
-        (S::ZERO, -S::ONE)
+        (zero, -one)
     } else if reduced == quarter * S::from_i32(3) {
-        (-S::ONE, S::ZERO)
+        (-one, zero)
     } else {
-        (reduced * S::PI / S::from_i32(180)).sin_cos()
+        (reduced.widen() * S::Wide::PI / S::Wide::from_i32(180)).sin_cos()
     }
 }
 
@@ -168,22 +179,29 @@ impl<S: Scalar> Placement<S> {
     /// The placement of coordinates whose map to the scene is given; `None` where that map
     /// is singular.
     pub fn new(to_world: &Affine<S>) -> Option<Self> {
-        let rigid = to_world
-            .similarity()
-            .is_some_and(|factor| (factor - S::ONE).abs() <= S::EPSILON * S::from_i32(8));
+        let rigid = to_world.similarity().is_some_and(|factor| {
+            (factor - S::Wide::ONE).abs() <= S::Wide::EPSILON * S::Wide::from_i32(8)
+        });
         let to_local = to_world.inverse_rows()?;
-        Some(Self { anchor: to_world.offset, to_local, to_world: to_world.rows, rigid })
+        let anchor = S::narrow_vec(to_world.offset);
+        Some(Self { anchor, to_local, to_world: to_world.rows, rigid })
     }
 
     /// A point of the scene for a local one.
     #[inline]
     pub fn point(&self, local: S::Vec3) -> S::Vec3 {
-        apply::<S>(&self.to_world, local) + self.anchor
+        S::narrow_vec(apply::<S>(&self.to_world, S::widen_vec(local)) + S::widen_vec(self.anchor))
+    }
+
+    /// A point of the scene in local coordinates.
+    #[inline]
+    pub fn local(&self, point: S::Vec3) -> S::WideVec {
+        apply::<S>(&self.to_local, S::widen_vec(point) - S::widen_vec(self.anchor))
     }
 
     /// A direction of the scene at right angles to a surface, for a local one; not of unit length.
     #[inline]
-    pub fn normal(&self, local: S::Vec3) -> S::Vec3 {
+    pub fn normal(&self, local: S::WideVec) -> S::WideVec {
         apply_transposed::<S>(&self.to_local, local)
     }
 }
@@ -195,13 +213,13 @@ pub struct Local<S: Scalar> {
     /// The parameter of `origin` on the ray.
     pub shift: S,
     /// A point of the ray near the leaf's centre.
-    pub origin: S::Vec3,
+    pub origin: S::WideVec,
     /// The direction, in local coordinates.
-    pub dir: S::Vec3,
+    pub dir: S::WideVec,
     /// `dir · dir`.
-    pub dd: S,
+    pub dd: S::Wide,
     /// `1 / (dir · dir)`.
-    pub inv_dd: S,
+    pub inv_dd: S::Wide,
 }
 
 impl<S: Scalar> Local<S> {
@@ -209,20 +227,20 @@ impl<S: Scalar> Local<S> {
     /// placement is given (then `centre` is its anchor).
     #[inline]
     pub fn recentred(line: &Line<S>, place: Option<&Placement<S>>, centre: S::Vec3) -> Self {
+        let dir = line.heading();
         let Some(place) = place else {
-            let shift = -(line.origin - centre).dot(line.dir) * line.inv_dd;
+            let shift = line.approach(centre);
             let origin = line.recentred(centre, shift);
-            return Self { shift, origin, dir: line.dir, dd: line.dd, inv_dd: line.inv_dd };
+            return Self { shift, origin, dir, dd: line.dd, inv_dd: line.inv_dd };
         };
-        let from = line.origin - place.anchor;
-        let dir = apply::<S>(&place.to_local, line.dir);
+        let dir = apply::<S>(&place.to_local, dir);
         let (dd, inv_dd, shift) = if place.rigid {
-            (line.dd, line.inv_dd, -from.dot(line.dir) * line.inv_dd)
+            (line.dd, line.inv_dd, line.approach(place.anchor))
         } else {
             // Nearest to the anchor as the leaf measures it: any shift is exact by definition.
             let dd = dir.length_squared();
-            let inv_dd = S::ONE / dd;
-            (dd, inv_dd, -apply::<S>(&place.to_local, from).dot(dir) * inv_dd)
+            let inv_dd = S::Wide::ONE / dd;
+            (dd, inv_dd, S::narrow(-place.local(line.origin).dot(dir) * inv_dd))
         };
         let origin = apply::<S>(&place.to_local, line.recentred(place.anchor, shift));
         Self { shift, origin, dir, dd, inv_dd }
@@ -231,25 +249,22 @@ impl<S: Scalar> Local<S> {
     /// The ray from a known point of the leaf's surface.
     #[inline]
     pub fn from_surface(line: &Line<S>, place: Option<&Placement<S>>, local: S::Vec3) -> Self {
-        let (dir, dd, inv_dd) = match place {
-            None => (line.dir, line.dd, line.inv_dd),
-            Some(place) => {
-                let dir = apply::<S>(&place.to_local, line.dir);
-                if place.rigid {
-                    (dir, line.dd, line.inv_dd)
-                } else {
-                    let dd = dir.length_squared();
-                    (dir, dd, S::ONE / dd)
-                }
+        let mut dir = line.heading();
+        let (mut dd, mut inv_dd) = (line.dd, line.inv_dd);
+        if let Some(place) = place {
+            dir = apply::<S>(&place.to_local, dir);
+            if !place.rigid {
+                dd = dir.length_squared();
+                inv_dd = S::Wide::ONE / dd;
             }
-        };
-        Self { shift: S::ZERO, origin: local, dir, dd, inv_dd }
+        }
+        Self { shift: S::ZERO, origin: S::widen_vec(local), dir, dd, inv_dd }
     }
 
-    /// The point at parameter `t` of the ray.
+    /// The ray's own parameter for one that counts from `origin`.
     #[inline]
-    pub fn at(&self, t: S) -> S::Vec3 {
-        self.origin + self.dir * (t - self.shift)
+    pub fn arrive(&self, t: S::Wide) -> S {
+        S::narrow(self.shift.widen() + t)
     }
 }
 

@@ -1,21 +1,21 @@
 //! Rays, where they start, and what is computed of them once for all solids.
 
-use crate::scalar::{Scalar, Vector};
+use crate::scalar::{Number, Scalar, Vector};
 
 /// A half-line: `origin + t·dir` for t > 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray<S: Scalar> {
     /// Where it starts.
     pub origin: S::Vec3,
-    /// Where it goes; t counts in lengths of this vector.
-    pub dir: S::Vec3,
+    /// Where it goes; t counts in lengths of this vector. In fixed point it is always of unit length.
+    pub dir: S::Dir,
 }
 
 impl<S: Scalar> Ray<S> {
     /// The point at `t`.
     #[inline]
     pub fn at(&self, t: S) -> S::Vec3 {
-        self.origin + self.dir * t
+        self.origin + S::along(self.dir, t)
     }
 }
 
@@ -42,13 +42,13 @@ pub struct Line<S: Scalar> {
     /// Where it starts.
     pub origin: S::Vec3,
     /// Where it goes.
-    pub dir: S::Vec3,
+    pub dir: S::Dir,
     /// `dir · dir`.
-    pub dd: S,
+    pub dd: S::Wide,
     /// `1 / (dir · dir)`.
-    pub inv_dd: S,
-    /// `1 / dir`, coordinate by coordinate; infinite where a coordinate is 0.
-    pub inv_dir: S::Vec3,
+    pub inv_dd: S::Wide,
+    /// `1 / dir`, coordinate by coordinate.
+    pub inv_dir: [S::Inverse; 3],
     /// The surface it starts on.
     pub start: Option<Start<S>>,
     aim: S::Aim,
@@ -58,21 +58,34 @@ impl<S: Scalar> Line<S> {
     /// Prepares a ray that starts on the given surface, or in free space.
     #[inline]
     pub fn new(ray: Ray<S>, start: Option<Start<S>>) -> Self {
-        let dd = ray.dir.length_squared();
+        let aim = S::aim(ray.dir);
+        let dd = S::heading(ray.dir, &aim).length_squared();
         Self {
             origin: ray.origin,
             dir: ray.dir,
             dd,
-            inv_dd: S::ONE / dd,
-            inv_dir: ray.dir.map(|d| S::ONE / d),
+            inv_dd: S::Wide::ONE / dd,
+            inv_dir: ray.dir.to_array().map(S::reciprocal),
             start,
-            aim: S::aim(ray.dir),
+            aim,
         }
+    }
+
+    /// The direction, for long formulas.
+    #[inline]
+    pub fn heading(&self) -> S::WideVec {
+        S::heading(self.dir, &self.aim)
+    }
+
+    /// About the parameter at which the ray is nearest to a point.
+    #[inline]
+    pub fn approach(&self, centre: S::Vec3) -> S {
+        S::approach(self.origin, centre, self.dir, self.inv_dd)
     }
 
     /// The point at `k`, seen from `centre`, without cancellation.
     #[inline]
-    pub fn recentred(&self, centre: S::Vec3, k: S) -> S::Vec3 {
+    pub fn recentred(&self, centre: S::Vec3, k: S) -> S::WideVec {
         S::recentre(self.origin, centre, self.dir, &self.aim, k)
     }
 
@@ -80,10 +93,6 @@ impl<S: Scalar> Line<S> {
     /// rounding may have added to the distance is allowed for.
     #[inline]
     pub fn may_pass(&self, centre: S::Vec3, radius: S) -> bool {
-        let from = self.origin - centre;
-        let nearest = from - self.dir * (from.dot(self.dir) * self.inv_dd);
-        let reach = from.x().abs() + from.y().abs() + from.z().abs();
-        let distance = radius + reach * (S::EPSILON * S::from_i32(16));
-        nearest.length_squared() <= distance.squared()
+        S::may_pass(self.origin, centre, self.dir, self.inv_dd, radius)
     }
 }

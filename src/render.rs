@@ -11,7 +11,7 @@ use crate::camera::Lens;
 use crate::color::Rgb;
 use crate::error::{Item, SceneError};
 use crate::ray::{Line, Ray, Start};
-use crate::scalar::Scalar;
+use crate::scalar::{Number, Real, Scalar};
 use crate::scene::Scene;
 use crate::shade::{Branch, Surface};
 use crate::span::{Boundary, Passage};
@@ -104,7 +104,7 @@ pub struct Render<'a, S: Scalar, const RAYS: usize = 9, const BOUNDARIES: usize 
     stack: heapless::Vec<Pending<S>, RAYS>,
     boundaries: [Boundary<S>; BOUNDARIES],
     /// By the depth of a ray: the most light that it can bring for a weight of 1.
-    brightest: [S; RAYS],
+    brightest: [S::Wide; RAYS],
     tally: T,
 }
 
@@ -150,11 +150,11 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
         }
         let limits = scene.limits();
         scene.check_room(BOUNDARIES)?;
-        let mut brightest = [limits.brightest; RAYS];
-        let mut most = limits.brightest;
+        let local = limits.brightest.widen();
+        let (mut brightest, mut most) = ([local; RAYS], local);
         for slot in brightest.iter_mut().take(depth_max as usize + 1).rev() {
             *slot = most;
-            most = limits.background.max(limits.brightest + limits.growth * most);
+            most = limits.background.widen().max(local + limits.growth.widen() * most);
         }
         Ok(Self {
             scene: *scene,
@@ -233,10 +233,10 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
             return;
         };
         let ratio = if passage == Passage::Touch {
-            S::ONE
+            S::Wide::ONE
         } else {
             let other = if behind == here { Some(hit.object) } else { behind };
-            self.scene.ior(here) / self.scene.ior(other)
+            self.scene.ior(here).widen() / self.scene.ior(other).widen()
         };
         let branches = surface.branches(ray.dir, weight, ratio);
         let (view, diffuse) = (ray.dir, branches.diffuse);
@@ -260,7 +260,8 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
         if share == S::ZERO {
             return;
         }
-        let most = self.brightest.get(usize::from(depth)).copied().unwrap_or(S::FAR) * share;
+        let most = self.brightest.get(usize::from(depth)).copied().unwrap_or(S::Wide::FAR);
+        let most = S::narrow(most * share.widen());
         if share < self.depth.weight_min {
             self.tally.count(Event::WeightCut);
             self.spent += most;

@@ -3,7 +3,7 @@
 use crate::color::Rgb;
 use crate::material::{Highlight, Material};
 use crate::ray::{Line, Ray, Start};
-use crate::scalar::{Scalar, Vector};
+use crate::scalar::{Number, Real, Scalar, Vector};
 use crate::scene::Scene;
 use crate::solid::Contact;
 use crate::span::{Boundary, End, Passage};
@@ -22,9 +22,9 @@ pub(crate) struct Surface<'a, S: Scalar> {
     /// The viewer is on the inner side of the leaf.
     from_within: bool,
     /// The unit normal of the geometry, to the viewer's side.
-    normal: S::Vec3,
+    normal: S::Dir,
     /// The unit normal that light sees, to the viewer's side.
-    shading: S::Vec3,
+    shading: S::Dir,
 }
 
 /// A ray to follow, and its share of the light.
@@ -58,7 +58,7 @@ impl<'a, S: Scalar> Surface<'a, S> {
         // The side is known from the boundary; only an open surface asks the normal, which
         // rounding may turn over at a grazing angle.
         let from_within = match passage {
-            Passage::Touch => contact.normal.dot(line.dir) > S::ZERO,
+            Passage::Touch => contact.normal.dot(line.dir) > S::Unit::ZERO,
             Passage::Enter => inverted,
             Passage::Leave => !inverted,
         };
@@ -83,7 +83,7 @@ impl<'a, S: Scalar> Surface<'a, S> {
         }
     }
 
-    fn branch(&self, dir: S::Vec3, other_side: bool, weight: Rgb<S>) -> Branch<S> {
+    fn branch(&self, dir: S::Dir, other_side: bool, weight: Rgb<S>) -> Branch<S> {
         let ray = Ray { origin: self.contact.position, dir };
         Branch { ray, start: self.start(other_side), weight }
     }
@@ -93,7 +93,7 @@ impl<'a, S: Scalar> Surface<'a, S> {
     pub(crate) fn local_light(
         &self,
         scene: &Scene<'a, S>,
-        view: S::Vec3,
+        view: S::Dir,
         diffuse_share: S,
         buffer: &mut [Boundary<S>],
         tally: &mut impl Tally,
@@ -112,14 +112,14 @@ impl<'a, S: Scalar> Surface<'a, S> {
                 continue;
             };
             let facing = self.shading.dot(seen.toward);
-            if !(facing > S::ZERO && self.normal.dot(seen.toward) > S::ZERO) {
+            if !(facing > S::Unit::ZERO && self.normal.dot(seen.toward) > S::Unit::ZERO) {
                 tally.count(Event::ShadowSkip);
                 continue;
             }
-            let mut share = self.color * (diffuse * facing);
+            let mut share = self.color * (diffuse * S::from_unit(facing));
             if material.specular > S::ZERO {
                 let cosine = self.highlight_cosine(seen.toward, view, facing);
-                if cosine > S::ZERO {
+                if cosine > S::Unit::ZERO {
                     share += gloss * material.lobe(cosine);
                 }
             }
@@ -138,36 +138,41 @@ impl<'a, S: Scalar> Surface<'a, S> {
 
     /// R·V of Phong's model, or N·H of Blinn's.
     #[inline]
-    fn highlight_cosine(&self, toward: S::Vec3, view: S::Vec3, facing: S) -> S {
+    fn highlight_cosine(&self, toward: S::Dir, view: S::Dir, facing: S::Unit) -> S::Unit {
         let cosine = match self.material.highlight {
-            Highlight::Phong => (toward - self.shading * (facing * S::TWO)).dot(view),
-            Highlight::Blinn => self.shading.dot((toward - view).normalize()),
+            Highlight::Phong => S::mirror(toward, self.shading, facing).dot(view),
+            Highlight::Blinn => {
+                let half = S::unit(S::widen_dir(toward) - S::widen_dir(view));
+                self.shading.dot(half)
+            }
         };
-        cosine.min(S::ONE)
+        cosine.min(S::Unit::ONE)
     }
 
     /// The mirrored and the refracted ray for a ray of direction `view` and a weight; `ratio`
     /// is the index of refraction on this side over that on the other.
     ///
     /// Snell's law decides the direction; beyond the critical angle all that would pass is mirrored.
-    pub(crate) fn branches(&self, view: S::Vec3, weight: Rgb<S>, ratio: S) -> Branches<S> {
+    pub(crate) fn branches(&self, view: S::Dir, weight: Rgb<S>, ratio: S::Wide) -> Branches<S> {
         let material = self.material;
         let (mut reflect, mut transmit) = (material.reflect, material.transmit);
         let mut diffuse = S::ONE;
-        let cos_in = (-self.shading.dot(view)).clamp(S::ZERO, S::ONE);
-        let mut through = view;
+        let cosine = (-self.shading.dot(view)).clamp(S::Unit::ZERO, S::Unit::ONE);
+        let mut through = S::widen_dir(view);
         if self.passage != Passage::Touch
             && (transmit > S::ZERO || material.fresnel != crate::material::Fresnel::Off)
         {
-            let square = S::ONE - ratio.squared() * (S::ONE - cos_in.squared());
-            if square > S::ZERO {
+            let (one, cos_in) = (S::Wide::ONE, S::widen_unit(cosine));
+            let square = one - ratio.squared() * (one - cos_in.squared());
+            if square > S::Wide::ZERO {
                 let cos_out = square.sqrt();
-                let moved = material.reflectance(cos_in, cos_out, ratio);
+                let moved = S::narrow(material.reflectance(cos_in, cos_out, ratio));
                 reflect += moved * (transmit + material.diffuse);
                 transmit *= S::ONE - moved;
                 diffuse = S::ONE - moved;
-                if ratio != S::ONE {
-                    through = view * ratio + self.shading * (ratio * cos_in - cos_out);
+                if ratio != one {
+                    let shading = S::widen_dir(self.shading);
+                    through = through * ratio + shading * (ratio * cos_in - cos_out);
                 }
             } else {
                 reflect += transmit;
@@ -176,21 +181,21 @@ impl<'a, S: Scalar> Surface<'a, S> {
         }
         let tint = if material.metallic { self.color } else { Rgb::WHITE };
         let reflected = (reflect > S::ZERO).then(|| {
-            let dir = self.mirrored(view, cos_in).normalize();
+            let dir = S::unit(S::widen_dir(self.mirrored(view, cosine)));
             self.branch(dir, false, weight * tint * reflect)
         });
         let refracted =
-            (transmit > S::ZERO).then(|| self.branch(through.normalize(), true, weight * transmit));
+            (transmit > S::ZERO).then(|| self.branch(S::unit(through), true, weight * transmit));
         Branches { reflected, refracted, diffuse }
     }
 
     /// The mirrored direction; never to the far side of the geometry, whatever the shading normal says.
-    fn mirrored(&self, view: S::Vec3, cos_in: S) -> S::Vec3 {
-        let dir = view + self.shading * (cos_in * S::TWO);
-        if dir.dot(self.normal) >= S::ZERO {
+    fn mirrored(&self, view: S::Dir, cosine: S::Unit) -> S::Dir {
+        let dir = S::mirror(view, self.shading, -cosine);
+        if dir.dot(self.normal) >= S::Unit::ZERO {
             dir
         } else {
-            view - self.normal * (view.dot(self.normal) * S::TWO)
+            S::mirror(view, self.normal, view.dot(self.normal))
         }
     }
 }

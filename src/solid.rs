@@ -7,7 +7,7 @@
 
 use crate::place::{Placement, apply};
 use crate::ray::{Line, Start};
-use crate::scalar::{Scalar, Vector};
+use crate::scalar::{Number, Real, Scalar, Vector};
 use crate::shape::{Shape, Sight};
 use crate::span::{Boundary, End, Operator, Passage, Spans, drop_slivers, is_neutral, merge};
 
@@ -50,7 +50,7 @@ pub struct Contact<S: Scalar> {
     /// The point in the scene.
     pub position: S::Vec3,
     /// The unit normal, outward of the leaf.
-    pub normal: S::Vec3,
+    pub normal: S::Dir,
 }
 
 /// The tables that intersection needs.
@@ -107,7 +107,7 @@ impl<'a, S: Scalar> Geometry<'a, S> {
 
     /// The point of a ray at `t`, in the coordinates of a leaf.
     #[inline]
-    fn local_at(&self, line: &Line<S>, leaf: &Leaf<S>, t: S) -> S::Vec3 {
+    fn local_at(&self, line: &Line<S>, leaf: &Leaf<S>, t: S) -> S::WideVec {
         match self.placement(leaf) {
             None => line.recentred(leaf.shape.centre(), t),
             Some(place) => apply::<S>(&place.to_local, line.recentred(place.anchor, t)),
@@ -123,43 +123,50 @@ impl<'a, S: Scalar> Geometry<'a, S> {
             None => (local + shape.centre(), normal),
             Some(place) => (place.point(local), place.normal(normal)),
         };
-        Contact { local, position, normal: normal.normalize() }
+        Contact { local, position, normal: S::unit(normal) }
     }
 
-    /// How far rounding may move the surface of a leaf along its normal, in units of
-    /// [`EPSILON`](Scalar::EPSILON), and how fast a ray goes that way; at a point of a face in the
-    /// leaf's own coordinates.
+    /// How far rounding may move the surface of a leaf along its normal, and how fast a ray goes
+    /// that way; at a point of a face in the leaf's own coordinates.
     ///
     /// The place is rounded when it is given, when it is moved and when it is stored, at ½ each; the way
     /// to the point goes through the entries of the placement, their products and sums, at less than 4.
-    fn uncertainty(&self, line: &Line<S>, leaf: &Leaf<S>, local: S::Vec3, face: u16) -> [S; 2] {
-        let magnitude = |v: S::Vec3| v.map(S::abs);
-        let reach = |from: S::Vec3, place: S::Vec3| {
-            magnitude(from) * S::from_i32(4) + magnitude(place) * S::TWO
+    fn uncertainty(
+        &self,
+        line: &Line<S>,
+        leaf: &Leaf<S>,
+        local: S::Vec3,
+        face: u16,
+    ) -> [S::Wide; 2] {
+        let magnitude = |v: S::WideVec| v.map(Number::abs);
+        let rounding = |v: S::WideVec| magnitude(v).map(S::rounding);
+        let reach = |from: S::WideVec, place: S::Vec3| {
+            rounding(from) * S::Wide::from_i32(4) + rounding(S::widen_vec(place)) * S::Wide::TWO
         };
+        let local_wide = S::widen_vec(local);
         let normal = leaf.shape.normal(local, face, self.points);
         let Some(place) = self.placement(leaf) else {
             let normal = normal.normalize();
-            let moved = magnitude(normal).dot(reach(local, leaf.shape.centre()));
-            return [moved, normal.dot(line.dir).abs()];
+            let moved = magnitude(normal).dot(reach(local_wide, leaf.shape.centre()));
+            return [moved, normal.dot(line.heading()).abs()];
         };
         let across = place.normal(normal);
-        let inverse = S::ONE / across.length();
-        let reach = reach(apply::<S>(&place.to_world, local), place.anchor);
+        let inverse = S::Wide::ONE / across.length();
+        let reach = reach(apply::<S>(&place.to_world, local_wide), place.anchor);
         let moved = magnitude(normal).dot(apply::<S>(&place.to_local.map(magnitude), reach));
-        [moved * inverse, across.dot(line.dir).abs() * inverse]
+        [moved * inverse, across.dot(line.heading()).abs() * inverse]
     }
 
     /// How far rounding may have moved a boundary along the ray: its share of t, and what the
     /// uncertain place of the surface makes of it at this angle.
-    fn slack(&self, line: &Line<S>, boundary: &Boundary<S>) -> S {
+    fn slack(&self, line: &Line<S>, boundary: &Boundary<S>) -> S::Wide {
         let Some(leaf) = self.leaf(boundary.node) else {
-            return S::ZERO;
+            return S::Wide::ZERO;
         };
         let local = leaf.shape.snap(self.local_at(line, leaf, boundary.t), boundary.face);
         let [moved, speed] = self.uncertainty(line, leaf, local, boundary.face);
         let speed = speed.max(least_speed(line));
-        (boundary.t.abs() * S::TWO + moved / speed) * S::EPSILON
+        S::rounding(boundary.t.abs().widen()) * S::Wide::TWO + moved / speed
     }
 
     /// Two boundaries of different leaves cannot be told apart at this precision.
@@ -168,7 +175,7 @@ impl<'a, S: Scalar> Geometry<'a, S> {
         if !(gap <= tie_max(line, a.t.abs().max(b.t.abs()))) {
             return false;
         }
-        gap == S::ZERO || gap <= self.slack(line, a) + self.slack(line, b)
+        gap == S::ZERO || gap.widen() <= self.slack(line, a) + self.slack(line, b)
     }
 
     /// The boundary of a leaf right at the start of a ray that begins on another leaf of the
@@ -181,14 +188,14 @@ impl<'a, S: Scalar> Geometry<'a, S> {
             return false;
         };
         let near = match self.placement(leaf) {
-            None => line.origin - leaf.shape.centre(),
-            Some(place) => apply::<S>(&place.to_local, line.origin - place.anchor),
+            None => S::widen_vec(line.origin) - S::widen_vec(leaf.shape.centre()),
+            Some(place) => place.local(line.origin),
         };
         let local = leaf.shape.snap(near, end.face);
         let [moved, speed] = self.uncertainty(line, leaf, local, end.face);
         let [start_moved, _] = self.uncertainty(line, origin, start.local, start.face);
         let speed = speed.max(least_speed(line));
-        end.t.abs() * speed <= (moved + start_moved) * S::EPSILON
+        end.t.abs().widen() * speed <= moved + start_moved
     }
 
     /// Writes the boundaries of one leaf within the window from `top` on; inside at the start
@@ -342,12 +349,12 @@ fn support<S: Scalar>(operator: Operator, inside: bool, made: &[Boundary<S>]) ->
 /// step: a cheap bound, far above most slacks, that spares their computation.
 #[inline]
 fn tie_max<S: Scalar>(line: &Line<S>, t: S) -> S {
-    let reach = t + line.origin.max_abs() / line.dir.max_abs();
-    reach * (S::EPSILON_ROOT * S::from_i32(16))
+    let reach = t.widen() + line.origin.max_abs().widen() / line.heading().max_abs();
+    S::narrow(reach * (S::EPSILON_ROOT * S::from_i32(16)).widen())
 }
 
 /// How fast a ray goes through a surface at least; at the edge of a curved one the error is a
 /// square root of the rounding, not the rounding over the speed.
-fn least_speed<S: Scalar>(line: &Line<S>) -> S {
-    line.dd.sqrt() * S::EPSILON_ROOT
+fn least_speed<S: Scalar>(line: &Line<S>) -> S::Wide {
+    line.dd.sqrt() * S::EPSILON_ROOT.widen()
 }

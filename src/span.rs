@@ -1,6 +1,6 @@
 //! Intervals of a ray, and the set operations on lists of their ends.
 
-use crate::scalar::Scalar;
+use crate::scalar::{Real, Scalar};
 
 /// One end of an interval: where, and through which face of the leaf.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,7 +21,7 @@ pub struct Span<S> {
     pub exit: End<S>,
 }
 
-impl<S: Scalar> Span<S> {
+impl<S: Real> Span<S> {
     /// The whole ray, to be clipped.
     #[inline]
     pub(crate) fn whole() -> Self {
@@ -51,6 +51,24 @@ impl<S: Scalar> Span<S> {
         }
     }
 
+    /// The same faces at other parameters.
+    #[inline]
+    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Span<T> {
+        let Self { enter, exit } = self;
+        Span {
+            enter: End { t: f(enter.t), face: enter.face },
+            exit: End { t: f(exit.t), face: exit.face },
+        }
+    }
+
+    /// It holds at least one point.
+    #[inline]
+    pub(crate) fn is_open(&self) -> bool {
+        self.enter.t < self.exit.t
+    }
+}
+
+impl<S: Scalar> Span<S> {
     /// The same span, but not empty: where rounding put both ends in one place, or the exit
     /// before the entry, the exit is the next number. A thin solid far away stays one.
     #[inline]
@@ -59,12 +77,6 @@ impl<S: Scalar> Span<S> {
             self.exit.t = self.enter.t.next_up();
         }
         self
-    }
-
-    /// It holds at least one point.
-    #[inline]
-    pub(crate) fn is_open(&self) -> bool {
-        self.enter.t < self.exit.t
     }
 }
 

@@ -16,13 +16,13 @@
 
 mod oracle;
 
-use nostray::{Affine, Axis, Form, Ray, Scalar, Vector};
+use nostray::{Affine, Axis, Form, Ray, Vector};
 use oracle::subject::{Kind, Plan, ROUND, Subject};
 use oracle::table::{Limit, Row, Size, Table};
-use oracle::{Path, Random, Real, Solid, along, array, length, point, ulp, vector};
+use oracle::{Float, Path, Random, Real, Solid, along, array, length, point, ulp, vector};
 
 /// A ray at a point, from so many sizes away, 10⁻³ to 10³ long.
-fn aimed<S: Scalar>(random: &mut Random, target: [f64; 3], size: f64, distance: f64) -> Ray<S> {
+fn aimed<S: Float>(random: &mut Random, target: [f64; 3], size: f64, distance: f64) -> Ray<S> {
     let dir = random.direction();
     let origin = along(target, -distance * size, dir);
     let speed = random.decades(-3.0, 3.0);
@@ -37,7 +37,7 @@ fn stand(random: &mut Random) -> (f64, [f64; 3]) {
 
 /// Rays whose distance from the axis or centre is 1 ± `spread` of what touches, against the
 /// given solid and the stored one.
-fn silhouette<S: Scalar>(
+fn silhouette<S: Float>(
     kind: Kind,
     distance: f64,
     rays: u32,
@@ -85,7 +85,7 @@ fn margin_of(kind: Kind) -> f64 {
     }
 }
 
-fn silhouettes<S: Scalar>(rays: u32, distances: &[f64]) {
+fn silhouettes<S: Float>(rays: u32, distances: &[f64]) {
     let mut table = Table::new::<S>("impact R(1 ± 0.01)");
     for kind in ROUND {
         for &distance in distances {
@@ -96,7 +96,7 @@ fn silhouettes<S: Scalar>(rays: u32, distances: &[f64]) {
     }
 }
 
-fn grazing<S: Scalar>(rays: u32) {
+fn grazing<S: Float>(rays: u32) {
     let mut table = Table::new::<S>("impact R(1 ± 1e-7..1e-1)");
     for kind in ROUND {
         let rows =
@@ -115,7 +115,7 @@ fn grazing<S: Scalar>(rays: u32) {
 }
 
 /// Rays at a point well inside, from `low` to `high` sizes away.
-fn inside<S: Scalar>(rays: u32, [low, high]: [f64; 2], limit: Limit) {
+fn inside<S: Float>(rays: u32, [low, high]: [f64; 2], limit: Limit) {
     let mut table = Table::new::<S>(&format!("well inside, from {low:e} to {high:e}"));
     for kind in ROUND {
         let mut random = Random::new(kind as u64 * 777 + high.log10() as u64);
@@ -179,7 +179,7 @@ enum Aim {
 }
 
 /// A ray of that kind; coordinates of `ExactEdge` are small whole numbers and their halves.
-fn at_box<S: Scalar>(random: &mut Random, aim: Aim, min: S::Vec3, max: S::Vec3) -> Ray<S> {
+fn at_box<S: Float>(random: &mut Random, aim: Aim, min: S::Vec3, max: S::Vec3) -> Ray<S> {
     let (low, high) = (array::<S>(min), array::<S>(max));
     let size = length(along(high, -1.0, low));
     let corner = [0, 1, 2].map(|i| if random.bits() & 1 == 0 { low[i] } else { high[i] });
@@ -222,7 +222,7 @@ fn at_box<S: Scalar>(random: &mut Random, aim: Aim, min: S::Vec3, max: S::Vec3) 
     ray
 }
 
-fn boxes<S: Scalar>(rays: u32) {
+fn boxes<S: Float>(rays: u32) {
     let mut table = Table::new::<S>("box");
     for aim in [Aim::Inside, Aim::Far, Aim::Parallel, Aim::InFace, Aim::Edge, Aim::ExactEdge] {
         let mut random = Random::new(aim as u64);
@@ -262,7 +262,7 @@ fn boxes_f64() {
     boxes::<f64>(2000);
 }
 
-fn turned_boxes<S: Scalar>(rays: u32) {
+fn turned_boxes<S: Float>(rays: u32) {
     let mut table = Table::new::<S>("box, turned");
     let mut random = Random::new(5);
     let [mut given, mut stored] = [Row::default(), Row::default()];
@@ -300,7 +300,7 @@ fn boxes_turned() {
 
 /// The error of a plane in units of its bound, ulp(t) + 2·ε·reach/|n·d| with the reach of
 /// the point hit and of the plane itself.
-fn planes<S: Scalar>(rays: u32, oblique: bool) {
+fn planes<S: Float>(rays: u32, oblique: bool) {
     let mut random = Random::new(6);
     let (mut most, mut hits) = (0.0_f64, 0);
     for _ in 0..rays {

@@ -75,7 +75,7 @@ fn ray_at<S: Scalar>(
     let origin = [x - dir[0] * distance, y - dir[1] * distance, z - dir[2] * distance];
     let target = affine.point(vector::<S>([x, y, z]));
     let origin = affine.point(vector::<S>(origin));
-    Ray { origin, dir: (target - origin).normalize() }
+    Ray { origin, dir: S::unit(S::widen_vec(target - origin)) }
 }
 
 /// A hole right through a box, whose ends lie in the box's faces.
@@ -135,7 +135,7 @@ fn lids<S: Scalar>(rays: u32) -> (u32, u32) {
 fn is_lid<S: Scalar>(affine: &Affine<S>, b: &Boundary<S>, ray: &Ray<S>, lift: f64) -> bool {
     let place = Placement::new(affine).unwrap();
     let from = ray.at(b.t) - place.anchor;
-    let [x, y, z] = place.to_local.map(|row| row.dot(from).to_f64());
+    let [x, y, z] = place.to_local.map(|row| row.dot(S::widen_vec(from)).to_f64());
     let in_hole = x.hypot(z) < 0.45;
     in_hole && ((y - lift).abs() - 0.7).abs() < 0.1
 }
@@ -286,7 +286,9 @@ fn tops<S: Scalar>(size: u32) -> (u32, u32) {
 
         let up = affine.point(at(0.0, 1.0, 0.0)) - affine.point(S::Vec3::ZERO);
         let lamp = affine.point(at(1.0, 2.5, 0.4)) - affine.point(at(0.0, 0.3, 0.0));
-        scene.light(Light::Directional { toward: -lamp.normalize(), color: Rgb::WHITE }).unwrap();
+        scene
+            .light(Light::Directional { toward: -S::unit(S::widen_vec(lamp)), color: Rgb::WHITE })
+            .unwrap();
         scene.camera = Camera {
             eye: affine.point(at(0.5, 3.0, 4.0)),
             look_at: affine.point(at(0.0, 0.3, 0.0)),

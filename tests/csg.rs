@@ -203,7 +203,7 @@ fn check_ray<S: Scalar>(
     (origin, dir): ([f64; 3], [f64; 3]),
     near: f64,
 ) -> Result<(), TestCaseError> {
-    let ray = Ray { origin: vector::<S>(origin), dir: vector::<S>(dir) };
+    let ray = Ray { origin: vector::<S>(origin), dir: S::steer(S::widen_vec(vector::<S>(dir))).0 };
     let whole = spans(scene, 0, ray);
     check_order(&whole)?;
     let leaves: Vec<_> = (1..).zip(bodies).map(|(object, _)| spans(scene, object, ray)).collect();
@@ -274,7 +274,8 @@ fn check_equal<S: Scalar>(
     b.add(&mut builder).unwrap();
     let scene = builder.scene().unwrap();
     for &(origin, dir) in rays {
-        let ray = Ray { origin: vector::<S>(origin), dir: vector::<S>(dir) };
+        let ray =
+            Ray { origin: vector::<S>(origin), dir: S::steer(S::widen_vec(vector::<S>(dir))).0 };
         let [one, other] = [0, 1].map(|object| {
             let (inside, boundaries) = spans(&scene, object, ray);
             let places: Vec<_> = boundaries.iter().map(|b| (b.t, b.passage)).collect();
@@ -353,7 +354,8 @@ fn check_open<S: Scalar>(
     builder.leaf(polygon, &Affine::identity(), 0).unwrap();
     let scene = builder.scene().unwrap();
     for &(origin, dir) in rays {
-        let ray = Ray { origin: vector::<S>(origin), dir: vector::<S>(dir) };
+        let ray =
+            Ray { origin: vector::<S>(origin), dir: S::steer(S::widen_vec(vector::<S>(dir))).0 };
         let [whole, solid, surface] = [0, 1, 2].map(|object| spans(&scene, object, ray));
         check_order(&whole)?;
         let closed = whole.1.iter().filter(|b| b.passage != Passage::Touch);

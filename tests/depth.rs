@@ -62,7 +62,7 @@ fn pixels<S: Scalar>(scene: &Scene<'_, S>, depth: Depth<S>) -> (Vec<Pixel<S>>, S
 
 fn difference<S: Scalar>(a: Rgb<S>, b: Rgb<S>) -> f64 {
     let pairs = a.to_array().into_iter().zip(b.to_array());
-    pairs.fold(0.0, |most, (a, b)| Scalar::max(most, (a.to_f64() - b.to_f64()).abs()))
+    pairs.fold(0.0, |most, (a, b)| Number::max(most, (a.to_f64() - b.to_f64()).abs()))
 }
 
 /// The certificate: no pixel is farther from the uncut one than what was spent, and nothing

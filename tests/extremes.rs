@@ -12,16 +12,16 @@
 
 mod oracle;
 
-use nostray::{Affine, Form, Ray, Scalar, Shape};
+use nostray::{Affine, Form, Ray, Shape};
 use oracle::subject::Subject;
-use oracle::{Path, Random, Real, Solid, along, array, length, point, vector};
+use oracle::{Float, Path, Random, Real, Solid, along, array, length, point, vector};
 
-fn ray<S: Scalar>(origin: [f64; 3], dir: [f64; 3]) -> Ray<S> {
+fn ray<S: Float>(origin: [f64; 3], dir: [f64; 3]) -> Ray<S> {
     Ray { origin: vector::<S>(origin), dir: vector::<S>(dir) }
 }
 
 /// A cylinder or frustum between (0, −h, 0) and (0, h, 0).
-fn upright<S: Scalar>([base, top]: [f64; 2], half: f64) -> Subject<S> {
+fn upright<S: Float>([base, top]: [f64; 2], half: f64) -> Subject<S> {
     let [base_radius, top_radius] = [base, top].map(S::from_f64);
     let ends = [[0.0, -half, 0.0], [0.0, half, 0.0]].map(vector::<S>);
     let form = if base == top && base != 3.0 {
@@ -34,21 +34,21 @@ fn upright<S: Scalar>([base, top]: [f64; 2], half: f64) -> Subject<S> {
     Subject::new(form, &Affine::identity(), given, base.max(top).max(half))
 }
 
-fn cuboid<S: Scalar>(min: [f64; 3], max: [f64; 3]) -> Subject<S> {
+fn cuboid<S: Float>(min: [f64; 3], max: [f64; 3]) -> Subject<S> {
     let [min, max] = [min, max].map(vector::<S>);
     let given = Solid::Cuboid { min: point::<S>(min), max: point::<S>(max) };
     let size = length(array::<S>(max - min));
     Subject::new(Form::Box { min, max }, &Affine::identity(), given, size)
 }
 
-fn sphere<S: Scalar>(radius: f64) -> Subject<S> {
+fn sphere<S: Float>(radius: f64) -> Subject<S> {
     let (center, radius) = (vector::<S>([0.0; 3]), S::from_f64(radius));
     let given = Solid::Ball { center: point::<S>(center), radius: Real::of(radius) };
     Subject::new(Form::Sphere { center, radius }, &Affine::identity(), given, radius.to_f64())
 }
 
 /// The span is the exact one up to `tolerance` sizes.
-fn agrees<S: Scalar>(subject: &Subject<S>, ray: Ray<S>, tolerance: f64) {
+fn agrees<S: Float>(subject: &Subject<S>, ray: Ray<S>, tolerance: f64) {
     let truth = subject.given.span(&Path::of(&ray), &Real::from(0.0));
     let truth = truth.map(|ends| ends.map(|t| t.to_f64()));
     let found = subject.span(ray);
@@ -69,7 +69,7 @@ fn agrees<S: Scalar>(subject: &Subject<S>, ray: Ray<S>, tolerance: f64) {
 }
 
 /// Rays whose numbers are such that nothing has to be rounded: decisions are exact.
-fn exact_cases<S: Scalar>() {
+fn exact_cases<S: Float>() {
     let tolerance = S::EPSILON.to_f64() * 8.0;
     let tubes = [[2.0, 2.0], [3.0, 3.0], [2.0, 0.0], [0.0, 2.0], [2.0, 1.0], [1.0, 2.0]];
     let values = [-2.0, -1.0, -0.0, 0.0, 1.0, 2.0, 3.0];
@@ -134,7 +134,7 @@ fn vanishing_components_count_as_parallel() {
 }
 
 /// Close to the tip of a cone the error follows the distance from the tip.
-fn tips<S: Scalar>() {
+fn tips<S: Float>() {
     let mut random = Random::new(8);
     let eps = S::EPSILON.to_f64();
     let mut errors = Vec::new();
@@ -173,7 +173,7 @@ fn tips_are_sharp() {
 }
 
 /// The least and the greatest legal lengths, in every combination.
-fn limits<S: Scalar>() {
+fn limits<S: Float>() {
     let mut random = Random::new(9);
     let (least, most) = (S::LENGTH_MIN.to_f64(), S::COORD_MAX.to_f64());
     let lengths = [least, most, 1.0];
@@ -224,7 +224,7 @@ fn lengths_at_their_limits() {
 }
 
 /// The smallest and the largest solids are as exact as any.
-fn scales<S: Scalar>() {
+fn scales<S: Float>() {
     let mut random = Random::new(10);
     for size in [S::LENGTH_MIN.to_f64(), S::COORD_MAX.to_f64()] {
         let subjects = [

@@ -79,7 +79,12 @@ fn lit_sphere_follows_the_local_model() {
         let index = builder.material(material).unwrap();
         let light = [0.48, 0.6, 0.64];
         let toward = S::Vec3::from_array(light.map(|v| S::from_f64(-v)));
-        builder.light(Light::Directional { toward, color: rgb(1.0, 0.8, 0.7) }).unwrap();
+        builder
+            .light(Light::Directional {
+                toward: S::steer(S::widen_vec(toward)).0,
+                color: rgb(1.0, 0.8, 0.7),
+            })
+            .unwrap();
         let (center, radius) = (S::Vec3::ZERO, S::from_f64(2.0));
         builder.leaf(Form::Sphere { center, radius }, &Affine::identity(), index).unwrap();
         for (x, y) in [(0.0, 0.0), (0.5, 0.25), (-1.0, 0.5), (1.0, 1.0), (1.25, -0.75)] {

@@ -155,7 +155,7 @@ fn bad_lines_are_answered_and_the_next_ones_too() {
 
 #[test]
 fn bad_usage_is_refused_by_code_2() {
-    for args in [&["--scalar", "q16"][..], &["--scalar", "double"], &["solid.json"]] {
+    for args in [&["--scalar", "q8"][..], &["--scalar", "double"], &["solid.json"]] {
         let (mut out, mut err) = (Vec::new(), Vec::new());
         let args = std::iter::once("probe").chain(args.iter().copied()).map(OsString::from);
         assert_eq!(probe_command(args, &mut &b""[..], &mut out, &mut err), 2);

@@ -146,8 +146,6 @@ fn bad_usage_is_refused_by_code_2() {
         (&["--nonsense"][..], "--nonsense"),
         (&["nosuch"], "nosuch: is neither in the gallery"),
         (&["scene.obj"], "scene.obj: is neither in the gallery"),
-        (&["--scalar", "q16"], "--scalar q16: is not supported"),
-        (&["--scalar", "q32"], "--scalar q32: is not supported"),
         (&["--scalar", "f16"], "--scalar f16"),
         (&["--samples", "4"], "--samples 4"),
         (&["--samples", "0"], "--samples 0"),

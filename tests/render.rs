@@ -76,7 +76,7 @@ fn formats_hold_the_same_picture() {
     assert_eq!(parts.len(), linear.len());
     for (y, row) in parts.chunks(13 * 3).rev().enumerate() {
         for (x, part) in row.iter().enumerate() {
-            let light = nostray::Scalar::clamp(f32::from_le_bytes(*part), 0.0, 1.0);
+            let light = nostray::Number::clamp(f32::from_le_bytes(*part), 0.0, 1.0);
             let expected = f64::from(light) * 255.0;
             let byte = f64::from(linear[y * 13 * 3 + x]);
             assert!((byte - expected).abs() <= 0.500_001, "{byte} for {expected} at {x}, {y}");

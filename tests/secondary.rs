@@ -11,9 +11,9 @@
 mod oracle;
 
 use nostray::ray::Start;
-use nostray::{Affine, Axis, Boundary, Form, Passage, Ray, Scalar, Shape, Vector};
+use nostray::{Affine, Axis, Boundary, Form, Passage, Ray, Shape, Vector};
 use oracle::subject::{Kind, Plan, Subject};
-use oracle::{Path, Random, Real, Solid, along, array, inverse_rows, length, point, vector};
+use oracle::{Float, Path, Random, Real, Solid, along, array, inverse_rows, length, point, vector};
 
 #[derive(Clone, Copy, Debug)]
 enum Body {
@@ -37,7 +37,7 @@ const BODIES: [Body; 11] = [
     Body::Plane,
 ];
 
-fn subject<S: Scalar>(body: Body, random: &mut Random) -> Subject<S> {
+fn subject<S: Float>(body: Body, random: &mut Random) -> Subject<S> {
     let size = random.decades(-4.0, 4.0);
     let center = random.cube().map(|x| x * size * 3.0);
     match body {
@@ -69,14 +69,14 @@ fn subject<S: Scalar>(body: Body, random: &mut Random) -> Subject<S> {
 }
 
 /// A point of a surface.
-struct Contact<S: Scalar> {
+struct Contact<S: Float> {
     face: u16,
     local: S::Vec3,
     position: S::Vec3,
     normal: S::Vec3,
 }
 
-impl<S: Scalar> Contact<S> {
+impl<S: Float> Contact<S> {
     fn at(subject: &Subject<S>, near: S::Vec3, face: u16) -> Self {
         let local = subject.shape.snap(near, face);
         let normal = subject.shape.normal(local, face, &[]);
@@ -197,7 +197,7 @@ fn percentile(errors: &mut [f64]) -> f64 {
 }
 
 /// A direction from the surface and whether it is taken to go inward.
-fn leaving<S: Scalar>(random: &mut Random, contact: &Contact<S>, grazing: bool) -> (S::Vec3, bool) {
+fn leaving<S: Float>(random: &mut Random, contact: &Contact<S>, grazing: bool) -> (S::Vec3, bool) {
     let (normal, mut dir) = (array::<S>(contact.normal), random.direction());
     if grazing {
         let tilt = (0..3).map(|i| dir[i] * normal[i]).sum::<f64>();
@@ -212,7 +212,7 @@ fn leaving<S: Scalar>(random: &mut Random, contact: &Contact<S>, grazing: bool) 
 
 /// The error of an exit, for the best of starts that lie within 2 ε·size of the position:
 /// nearer than that no position can be told from the surface.
-fn exit_error<S: Scalar>(this: &Subject<S>, contact: &Contact<S>, ray: &Ray<S>, exit: f64) -> f64 {
+fn exit_error<S: Float>(this: &Subject<S>, contact: &Contact<S>, ray: &Ray<S>, exit: f64) -> f64 {
     let unit = S::EPSILON.to_f64() * (this.size + length(array::<S>(contact.position)));
     let mut least = f64::INFINITY;
     for height in [0.0, -0.5, 0.5, -1.0, 1.0, -2.0, 2.0] {
@@ -224,7 +224,7 @@ fn exit_error<S: Scalar>(this: &Subject<S>, contact: &Contact<S>, ray: &Ray<S>, 
     least
 }
 
-fn starts<S: Scalar>(body: Body, rays: u32) -> Errors {
+fn starts<S: Float>(body: Body, rays: u32) -> Errors {
     let mut random = Random::new(99);
     let mut errors = Errors::default();
     let mut this = subject::<S>(body, &mut random);
@@ -258,7 +258,7 @@ fn starts<S: Scalar>(body: Body, rays: u32) -> Errors {
     errors
 }
 
-fn bodies<S: Scalar>(rays: u32) {
+fn bodies<S: Float>(rays: u32) {
     println!("{}: exit error over size, p99, random and grazing; start in ε·size", S::NAME);
     for body in BODIES {
         let mut errors = starts::<S>(body, rays);

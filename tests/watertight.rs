@@ -12,20 +12,20 @@ use std::collections::HashMap;
 
 use nostray::ray::Line;
 use nostray::shape::Sight;
-use nostray::{Affine, Axis, Polygon, Ray, Scalar, Shape, Triangle, Vector};
+use nostray::{Affine, Axis, Polygon, Ray, Shape, Triangle, Vector};
 use oracle::{
-    Path, Point, Random, Real, along, array, cross, dot, length, point, sub, ulp, vector,
+    Float, Path, Point, Random, Real, along, array, cross, dot, length, point, sub, ulp, vector,
 };
 
 /// A surface, with its edges to aim at.
-struct Mesh<S: Scalar> {
+struct Mesh<S: Float> {
     points: Vec<S::Vec3>,
     faces: Vec<Shape<S>>,
     edges: Vec<[S::Vec3; 2]>,
     size: f64,
 }
 
-impl<S: Scalar> Mesh<S> {
+impl<S: Float> Mesh<S> {
     fn new(size: f64) -> Self {
         Self { points: Vec::new(), faces: Vec::new(), edges: Vec::new(), size }
     }
@@ -72,7 +72,7 @@ impl<S: Scalar> Mesh<S> {
 }
 
 /// An octahedron divided into 8·4^`levels` triangles and dented at random.
-fn dented<S: Scalar>(random: &mut Random, levels: u32, size: f64, center: [f64; 3]) -> Mesh<S> {
+fn dented<S: Float>(random: &mut Random, levels: u32, size: f64, center: [f64; 3]) -> Mesh<S> {
     let mut triangles = Vec::new();
     for x in [1.0, -1.0] {
         for y in [1.0, -1.0] {
@@ -107,7 +107,7 @@ fn dented<S: Scalar>(random: &mut Random, levels: u32, size: f64, center: [f64; 
 
 /// A prism on a star: concave caps of 2·`points` vertices, sides as quadrangles and as pairs of
 /// triangles by turns, turned and moved.
-fn star<S: Scalar>(random: &mut Random, points: usize, size: f64, center: [f64; 3]) -> Mesh<S> {
+fn star<S: Float>(random: &mut Random, points: usize, size: f64, center: [f64; 3]) -> Mesh<S> {
     let mut map = Affine::<f64>::scale(nostray::glam::DVec3::splat(size));
     for axis in Axis::ALL {
         map = map.then(&Affine::rotate(axis, random.within(0.0, 360.0)));
@@ -139,7 +139,7 @@ fn star<S: Scalar>(random: &mut Random, points: usize, size: f64, center: [f64; 
     mesh
 }
 
-fn meshes<S: Scalar>(seed: u64, mut check: impl FnMut(&mut Random, &Mesh<S>, [f64; 3])) {
+fn meshes<S: Float>(seed: u64, mut check: impl FnMut(&mut Random, &Mesh<S>, [f64; 3])) {
     let mut random = Random::new(seed);
     for n in 0..20 {
         let size = random.decades(-4.0, 4.0);
@@ -154,7 +154,7 @@ fn meshes<S: Scalar>(seed: u64, mut check: impl FnMut(&mut Random, &Mesh<S>, [f6
 }
 
 /// Rays from inside at shared edges and vertices must hit something.
-fn leaks<S: Scalar>(rays: u32) {
+fn leaks<S: Float>(rays: u32) {
     let (mut leaks, mut shot) = (0, 0);
     meshes::<S>(1, |random, mesh, center| {
         for _ in 0..rays / 20 {
@@ -189,7 +189,7 @@ fn clearance(path: &Path, edge: [Point; 2]) -> f64 {
 
 /// Lines go into a closed surface as often as out of it, through edges and vertices too: a
 /// point of an edge belongs to one of its faces.
-fn parity<S: Scalar>(rays: u32) {
+fn parity<S: Float>(rays: u32) {
     let mut crossed = 0;
     meshes::<S>(2, |random, mesh, center| {
         for _ in 0..rays / 20 {
@@ -249,7 +249,7 @@ fn holds(vertices: &[Point], p: &Point) -> bool {
 
 /// Faces one by one: hit or miss as exact arithmetic says, unless the ray passes within
 /// rounding of an edge; t within ulp(t) + c·ε·reach/|n·d|.
-fn faces<S: Scalar>(rays: u32) {
+fn faces<S: Float>(rays: u32) {
     let mut random = Random::new(3);
     let (mut worst, mut hits, mut compared) = (0.0_f64, 0, 0);
     let eps = S::EPSILON.to_f64();

@@ -4,20 +4,20 @@
 mod oracle;
 
 use nostray::ray::Line;
-use nostray::{Ray, Scalar, Vector};
-use oracle::{Random, Real, along, array, dot, point, ulp, vector};
+use nostray::{Ray, Vector};
+use oracle::{Float, Random, Real, along, array, dot, point, ulp, vector};
 
 /// A number of any sign and of one of many magnitudes.
-fn wide<S: Scalar>(random: &mut Random) -> S {
+fn wide<S: Float>(random: &mut Random) -> S {
     S::from_f64(random.decades(-4.0, 4.0) * random.sign())
 }
 
 /// A number moved by a few units in the last place.
-fn nudged<S: Scalar>(random: &mut Random, x: S) -> S {
+fn nudged<S: Float>(random: &mut Random, x: S) -> S {
     x + x * S::EPSILON * S::from_i32(random.below(5) as i32 - 2)
 }
 
-fn determinants<S: Scalar>(cases: u32) {
+fn determinants<S: Float>(cases: u32) {
     let mut random = Random::new(1);
     let mut ties = 0;
     for _ in 0..cases {
@@ -32,32 +32,32 @@ fn determinants<S: Scalar>(cases: u32) {
     assert!(ties > cases / 20, "{ties} rounded ties");
 }
 
-fn quotients<S: Scalar>(cases: u32) {
+fn quotients<S: Float>(cases: u32) {
     let mut random = Random::new(2);
     let mut equal = 0;
     for n in 0..cases {
         let ([a, o, d], e) = ([0; 3].map(|_| wide::<S>(&mut random)), wide::<S>(&mut random));
         let p = wide::<S>(&mut random);
         let mut b = nudged(&mut random, (a - o) / d * e + p);
-        let mut second = [b, p, e];
+        let mut second = (b, p, e);
         if n % 4 == 0 {
             // The same quotient, times a power of two.
             b = (a - o) * S::TWO;
-            second = [b, S::ZERO, d * S::TWO];
+            second = (b, S::ZERO, d * S::TWO);
         }
-        let exact = |[a, o, d]: [S; 3]| (Real::of(a) - Real::of(o)) / Real::of(d);
-        let difference = exact([a, o, d]) - exact(second);
-        let found = S::precedes([a, o, d], second);
+        let exact = |(a, o, d): (S, S, S)| (Real::of(a) - Real::of(o)) / Real::of(d);
+        let difference = exact((a, o, d)) - exact(second);
+        let found = S::precedes((a, o, d), second);
         equal += u32::from(difference.sign() == 0);
         // Quotients that are equal may differ in the last of the 300 bits.
         let sign = if difference.abs().to_f64() < 1e-70 { 0 } else { difference.sign() };
         assert_eq!(found, sign < 0, "{a} {o} {d} {second:?}");
-        assert!(!(found && S::precedes(second, [a, o, d])));
+        assert!(!(found && S::precedes(second, (a, o, d))));
     }
     assert!(equal > cases / 50, "{equal} equal quotients");
 }
 
-fn products<S: Scalar>(cases: u32) {
+fn products<S: Float>(cases: u32) {
     let mut random = Random::new(3);
     for _ in 0..cases {
         let a = vector::<S>(random.cube());
@@ -73,7 +73,7 @@ fn products<S: Scalar>(cases: u32) {
     }
 }
 
-fn recentring<S: Scalar>(cases: u32) {
+fn recentring<S: Float>(cases: u32) {
     let mut random = Random::new(4);
     for _ in 0..cases {
         let (center, dir) = (random.cube(), random.direction());

@@ -9,7 +9,7 @@ use crate::error::{Item, SceneError};
 use crate::light::{Attenuation, Light};
 use crate::material::{Fresnel, Material};
 use crate::place::{Placement, apply};
-use crate::scalar::{Axis, Scalar, Vector};
+use crate::scalar::{Axis, Number, Real, Scalar, Vector};
 use crate::shape::{Shape, Triangle};
 use crate::solid::{Leaf, NESTING_MAX, Node};
 use crate::span::Operator;
@@ -135,7 +135,7 @@ fn last_point<S: Scalar>(shape: &Shape<S>) -> u32 {
 
 fn check_placement<S: Scalar>(at: Item, placement: &Placement<S>) -> Result<(), SceneError> {
     let rows = placement.to_local.iter().chain(&placement.to_world);
-    if !rows.chain([&placement.anchor]).all(|row| row.is_finite()) {
+    if !(rows.into_iter().all(|row| row.is_finite()) && placement.anchor.is_finite()) {
         return Err(SceneError::NotFinite { at, field: "placement" });
     }
     if placement.anchor.max_abs() > S::COORD_MAX {
@@ -143,15 +143,16 @@ fn check_placement<S: Scalar>(at: Item, placement: &Placement<S>) -> Result<(), 
     }
     // The two matrices must undo each other, to the rounding of their entries.
     for axis in Axis::ALL {
-        let unit = S::Vec3::ZERO.with(axis, S::ONE);
+        let (one, zero) = (S::Wide::ONE, S::Wide::ZERO);
+        let unit = S::WideVec::ZERO.with(axis, one);
         let there = apply::<S>(&placement.to_world, unit);
         let scale =
-            there.max_abs() * placement.to_local.iter().fold(S::ZERO, |m, r| m.max(r.max_abs()));
+            there.max_abs() * placement.to_local.iter().fold(zero, |m, r| m.max(r.max_abs()));
         let back = apply::<S>(&placement.to_local, there);
-        if !((back - unit).max_abs() <= scale.max(S::ONE) * S::EPSILON_ROOT) {
+        if !((back - unit).max_abs() <= scale.max(one) * S::EPSILON_ROOT.widen()) {
             return Err(SceneError::SingularPlacement { at });
         }
-        let rigid = (there.length() - S::ONE).abs() <= S::EPSILON * S::from_i32(64);
+        let rigid = (there.length() - one).abs() <= S::Wide::EPSILON * S::Wide::from_i32(64);
         if placement.rigid && !rigid {
             return Err(SceneError::OutOfRange {
                 at,
@@ -286,10 +287,12 @@ fn check_attenuation<S: Scalar>(at: Item, attenuation: &Attenuation<S>) -> Resul
     Ok(())
 }
 
-fn check_unit<S: Scalar>(at: Item, field: &'static str, v: S::Vec3) -> Result<(), SceneError> {
+fn check_unit<S: Scalar>(at: Item, field: &'static str, v: S::Dir) -> Result<(), SceneError> {
     if !v.is_finite() {
-        Err(SceneError::NotFinite { at, field })
-    } else if !((v.length() - S::ONE).abs() <= S::EPSILON * S::from_i32(64)) {
+        return Err(SceneError::NotFinite { at, field });
+    }
+    let off = (S::widen_dir(v).length() - S::Wide::ONE).abs();
+    if !(off <= S::EPSILON.widen() * S::Wide::from_i32(64)) {
         Err(SceneError::OutOfRange { at, field, allowed: "of unit length" })
     } else {
         Ok(())
@@ -342,29 +345,32 @@ fn reach<S: Scalar>(parts: &Parts<'_, S>) -> Limits<S> {
             })
         }
     };
-    let lights = parts.lights.iter().fold(S::ZERO, |sum, light| sum + light.brightest().max_part());
+    let zero = S::Wide::ZERO;
+    let lights =
+        parts.lights.iter().fold(zero, |sum, light| sum + light.brightest().max_part().widen());
     let background = parts.background.brightest();
-    let (mut local, mut growth) = (S::ZERO, S::ZERO);
+    let (mut local, mut growth) = (zero, zero);
     let mut transparent = false;
     for material in parts.materials {
-        let color = brightest_paint(material.color);
-        let tint = if material.metallic { color } else { S::ONE };
-        let lit = material.diffuse * color + material.specular * tint;
-        local = local.max(parts.ambient.max_part() * material.ambient * color + lights * lit);
-        let moved = if material.fresnel == Fresnel::Off { S::ZERO } else { material.diffuse };
-        let mirrored = material.reflect + material.transmit + moved;
-        growth = growth.max(mirrored * tint.max(S::ONE));
+        let color = brightest_paint(material.color).widen();
+        let tint = if material.metallic { color } else { S::Wide::ONE };
+        let lit = material.diffuse.widen() * color + material.specular.widen() * tint;
+        let ambient = parts.ambient.max_part().widen() * material.ambient.widen();
+        local = local.max(ambient * color + lights * lit);
+        let moved = if material.fresnel == Fresnel::Off { zero } else { material.diffuse.widen() };
+        let mirrored = material.reflect.widen() + material.transmit.widen() + moved;
+        growth = growth.max(mirrored * tint.max(S::Wide::ONE));
         transparent |= material.is_transparent();
     }
     // Sums are rounded; a little more is certainly enough.
-    let margin = S::ONE + S::EPSILON * S::from_i32(1024);
+    let margin = S::Wide::ONE + S::EPSILON.widen() * S::Wide::from_i32(1024);
     Limits {
         boundaries: 0,
         widest: 0,
         crossings: 0,
         transparent,
-        brightest: local.max(background) * margin,
+        brightest: S::narrow(local.max(background.widen()) * margin),
         background,
-        growth: growth * margin,
+        growth: S::narrow(growth * margin),
     }
 }

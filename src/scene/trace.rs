@@ -5,7 +5,7 @@ use crate::color::Rgb;
 use crate::error::SceneError;
 use crate::material::Material;
 use crate::ray::{Line, Ray};
-use crate::scalar::{Scalar, Vector};
+use crate::scalar::{Number, Real, Scalar, Vector};
 use crate::solid::{Contact, Leaf, Node};
 use crate::span::{Boundary, End, Passage};
 use crate::stats::{Event, Tally};
@@ -315,7 +315,11 @@ impl<'a, S: Scalar> Scene<'a, S> {
         }
         material.absorb.map(|part| {
             // Nothing to multiply with an infinite length.
-            if part == S::ZERO { S::ONE } else { (-(part * length)).exp() }
+            if part == S::ZERO {
+                S::ONE
+            } else {
+                S::narrow((-(part.widen() * length.widen())).exp())
+            }
         })
     }
 
@@ -331,16 +335,16 @@ impl<'a, S: Scalar> Scene<'a, S> {
         &self,
         leaf: &Leaf<S>,
         position: S::Vec3,
-        normal: S::Vec3,
-    ) -> S::Vec3 {
+        normal: S::Dir,
+    ) -> S::Dir {
         let crate::shape::Shape::Triangle(triangle) = leaf.shape else {
             return normal;
         };
         let Some(shading) = triangle.shading_normal::<S>(position, self.parts.points) else {
             return normal;
         };
-        let unit = shading.normalize();
-        if unit.dot(normal) < S::ZERO { -unit } else { unit }
+        let unit = S::unit(shading);
+        if unit.dot(normal) < S::Unit::ZERO { -unit } else { unit }
     }
 }
 

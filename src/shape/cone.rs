@@ -6,7 +6,7 @@ use super::cylinder::{
 use super::{Flaw, Primitive, Sight, check_centre, check_length};
 use crate::bounds::Bounds;
 use crate::place::{Local, Placement};
-use crate::scalar::{Axis, Scalar, Vector};
+use crate::scalar::{Axis, Number, Real, Scalar, Vector};
 use crate::span::Span;
 
 /// A frustum about the local y axis, closed by caps; a cone where one radius is 0.
@@ -35,22 +35,23 @@ struct Slant<S> {
 
 impl<S: Scalar> Cone<S> {
     #[inline]
-    fn slant(&self) -> Slant<S> {
-        let (growth, rise) = (self.top_radius - self.base_radius, self.half_height * S::TWO);
+    fn slant(&self) -> Slant<S::Wide> {
+        let (base, top) = (self.base_radius.widen(), self.top_radius.widen());
+        let (growth, rise) = (top - base, self.half_height.widen() * S::Wide::TWO);
         let (rise, growth) = if growth.abs() <= rise {
-            (S::ONE, growth / rise)
-        } else if growth > S::ZERO {
-            (rise / growth, S::ONE)
+            (S::Wide::ONE, growth / rise)
+        } else if growth > S::Wide::ZERO {
+            (rise / growth, S::Wide::ONE)
         } else {
-            (rise / -growth, -S::ONE)
+            (rise / -growth, -S::Wide::ONE)
         };
-        Slant { rise, growth, radius: (self.base_radius + self.top_radius) * S::HALF * rise }
+        Slant { rise, growth, radius: (base + top) * S::Wide::HALF * rise }
     }
 
     /// The radius at a height between the caps.
-    fn radius_at(&self, y: S) -> S {
-        let share = (y / self.half_height + S::ONE) * S::HALF;
-        self.base_radius * (S::ONE - share) + self.top_radius * share
+    fn radius_at(&self, y: S::Wide) -> S::Wide {
+        let share = (y / self.half_height.widen() + S::Wide::ONE) * S::Wide::HALF;
+        self.base_radius.widen() * (S::Wide::ONE - share) + self.top_radius.widen() * share
     }
 
     fn radius_max(&self) -> S {
@@ -59,7 +60,7 @@ impl<S: Scalar> Cone<S> {
 
     /// The span inside the nappe that the frustum is cut from, or `None` beside it.
     #[inline]
-    fn nappe(&self, ray: &Local<S>) -> Option<Span<S>> {
+    fn nappe(&self, ray: &Local<S>) -> Option<Span<S::Wide>> {
         let Slant { rise, growth, radius } = self.slant();
         let (l, d) = (ray.origin, ray.dir);
         let (m0, m1) = (radius + growth * l.y(), growth * d.y());
@@ -67,10 +68,10 @@ impl<S: Scalar> Cone<S> {
         let distance = l.x().squared() + l.z().squared();
         if is_axial(across, ray.dd) {
             let gap = rise * distance.sqrt() - m0;
-            return if m1 == S::ZERO {
-                (gap < S::ZERO).then(Span::whole)
+            return if m1 == S::Wide::ZERO {
+                (gap < S::Wide::ZERO).then(Span::whole)
             } else {
-                Some(half_line(m1 > S::ZERO, gap / m1))
+                Some(half_line(m1 > S::Wide::ZERO, gap / m1))
             };
         }
         let (px, pz) = (m0 * d.x() - m1 * l.x(), m0 * d.z() - m1 * l.z());
@@ -78,50 +79,50 @@ impl<S: Scalar> Cone<S> {
         let discriminant = px.squared() + pz.squared() - moment.squared();
         let a = across * rise.squared() - m1.squared();
         // A ray steeper than the side always meets both nappes.
-        if a >= S::ZERO && discriminant <= S::ZERO {
+        if a >= S::Wide::ZERO && discriminant <= S::Wide::ZERO {
             return None;
         }
         let root = discriminant.sqrt() * rise;
         let b = (l.x() * d.x() + l.z() * d.z()) * rise.squared() - m0 * m1;
         let c = distance * rise.squared() - m0.squared();
         // Both roots without cancellation: q/a and c/q.
-        let q = if b < S::ZERO { root - b } else { -(root + b) };
-        if q == S::ZERO {
+        let q = if b < S::Wide::ZERO { root - b } else { -(root + b) };
+        if q == S::Wide::ZERO {
             // Through the tip.
-            return (a < S::ZERO).then(|| half_line(m1 > S::ZERO, S::ZERO));
+            return (a < S::Wide::ZERO).then(|| half_line(m1 > S::Wide::ZERO, S::Wide::ZERO));
         }
         let (first, second) = (c / q, q / a);
-        if a > S::ZERO {
+        if a > S::Wide::ZERO {
             let (enter, exit) = (first.min(second), first.max(second));
-            let radius = m0 + m1 * ((enter + exit) * S::HALF);
-            (radius > S::ZERO).then(|| Span::of_face(SIDE, enter, exit))
-        } else if a < S::ZERO {
-            let upward = m1 > S::ZERO;
+            let radius = m0 + m1 * ((enter + exit) * S::Wide::HALF);
+            (radius > S::Wide::ZERO).then(|| Span::of_face(SIDE, enter, exit))
+        } else if a < S::Wide::ZERO {
+            let upward = m1 > S::Wide::ZERO;
             let t = if upward { first.max(second) } else { first.min(second) };
             Some(half_line(upward, t))
         } else {
             // Parallel to a line of the side: one root.
-            Some(half_line(b < S::ZERO, first))
+            Some(half_line(b < S::Wide::ZERO, first))
         }
     }
 
     /// Where a ray that starts on the side and goes inward meets it again.
     #[inline]
-    fn other_root(&self, ray: &Local<S>) -> S {
+    fn other_root(&self, ray: &Local<S>) -> S::Wide {
         let Slant { rise, growth, radius } = self.slant();
         let (l, d) = (ray.origin, ray.dir);
         let (m0, m1) = (radius + growth * l.y(), growth * d.y());
         let a = (d.x().squared() + d.z().squared()) * rise.squared() - m1.squared();
         let b = (l.x() * d.x() + l.z() * d.z()) * rise.squared() - m0 * m1;
         // A ray steeper than the side stays in its nappe for ever.
-        if a > S::ZERO { (b * S::TWO).abs() / a } else { S::FAR }
+        if a > S::Wide::ZERO { (b * S::Wide::TWO).abs() / a } else { S::Wide::FAR }
     }
 }
 
 /// What lies after t, or before it.
 #[inline]
-fn half_line<S: Scalar>(after: bool, t: S) -> Span<S> {
-    if after { Span::of_face(SIDE, t, S::FAR) } else { Span::of_face(SIDE, -S::FAR, t) }
+fn half_line<T: Real>(after: bool, t: T) -> Span<T> {
+    if after { Span::of_face(SIDE, t, T::FAR) } else { Span::of_face(SIDE, -T::FAR, t) }
 }
 
 impl<S: Scalar> Primitive<S> for Cone<S> {
@@ -147,7 +148,7 @@ impl<S: Scalar> Primitive<S> for Cone<S> {
         }
         // Flatter than this it is a disc as far as the number format can tell.
         let growth = (self.top_radius - self.base_radius).abs();
-        let flat = self.half_height < growth * S::EPSILON;
+        let flat = self.half_height.widen() < S::rounding(growth.widen());
         if flat { Err(Flaw::NotPositive("half_height")) } else { Ok(()) }
     }
 
@@ -178,29 +179,32 @@ impl<S: Scalar> Primitive<S> for Cone<S> {
         emit_common(&ray, side, &caps, emit);
     }
 
-    fn snap(&self, local: S::Vec3, face: u16) -> S::Vec3 {
+    fn snap(&self, local: S::WideVec, face: u16) -> S::Vec3 {
+        let half_height = self.half_height.widen();
         let radius = match face {
-            SIDE => self.radius_at(local.y().clamp(-self.half_height, self.half_height)),
-            BASE => self.base_radius,
-            _ => self.top_radius,
+            SIDE => self.radius_at(local.y().clamp(-half_height, half_height)),
+            BASE => self.base_radius.widen(),
+            _ => self.top_radius.widen(),
         };
-        snap_tube(local, face, self.half_height, radius.max(S::ZERO))
+        snap_tube::<S>(local, face, self.half_height, radius.max(S::Wide::ZERO))
     }
 
-    fn normal(&self, local: S::Vec3, face: u16, _: &[S::Vec3]) -> S::Vec3 {
+    fn normal(&self, local: S::Vec3, face: u16, _: &[S::Vec3]) -> S::WideVec {
         match face {
             SIDE => {
                 let Slant { rise, growth, .. } = self.slant();
-                let distance = local.with(Axis::Y, S::ZERO).length();
-                if distance == S::ZERO {
+                let local = S::widen_vec(local);
+                let distance = local.with(Axis::Y, S::Wide::ZERO).length();
+                if distance == S::Wide::ZERO {
                     // The tip looks along the axis.
-                    return S::Vec3::ZERO
-                        .with(Axis::Y, if growth < S::ZERO { S::ONE } else { -S::ONE });
+                    let up = growth < S::Wide::ZERO;
+                    return S::WideVec::ZERO
+                        .with(Axis::Y, if up { S::Wide::ONE } else { -S::Wide::ONE });
                 }
-                S::Vec3::new(local.x() * rise, -growth * distance, local.z() * rise)
+                S::WideVec::new(local.x() * rise, -growth * distance, local.z() * rise)
             }
-            TOP => S::Vec3::new(S::ZERO, S::ONE, S::ZERO),
-            _ => S::Vec3::new(S::ZERO, -S::ONE, S::ZERO),
+            TOP => S::WideVec::ZERO.with(Axis::Y, S::Wide::ONE),
+            _ => S::WideVec::ZERO.with(Axis::Y, -S::Wide::ONE),
         }
     }
 

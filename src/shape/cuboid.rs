@@ -4,7 +4,7 @@ use super::{Flaw, Primitive, Sight, check_point};
 use crate::bounds::Bounds;
 use crate::place::{Local, Placement};
 use crate::ray::Line;
-use crate::scalar::{Axis, Scalar, Vector};
+use crate::scalar::{Axis, Number, Real, Scalar, Vector};
 use crate::span::{End, Span};
 
 /// A box between two corners, along the axes of its coordinates.
@@ -36,22 +36,57 @@ impl<S: Scalar> Cuboid<S> {
         (axis, if upper { self.max.get(axis) } else { self.min.get(axis) })
     }
 
-    /// The span within the slab of one axis, or `None` beside it. A ray in the plane of a
-    /// side is within.
+    /// The span within the slab of one axis, or `None` beside it; `within` tells where a ray
+    /// along the slab lies, else `to` where it meets a side. A ray in the plane of a side is within.
     #[inline]
-    fn slab(&self, axis: Axis, origin: S, inv: S) -> Option<Span<S>> {
+    fn slab<T: Real>(
+        &self,
+        axis: Axis,
+        [parallel, backward]: [bool; 2],
+        within: impl Fn(S, S) -> bool,
+        to: impl Fn(S) -> T,
+    ) -> Option<Span<T>> {
         let (low_face, high_face) = faces(axis);
         let (min, max) = (self.min.get(axis), self.max.get(axis));
-        if !inv.is_finite() {
-            return (min <= origin && origin <= max).then(Span::whole);
+        if parallel {
+            return within(min, max).then(Span::whole);
         }
-        let low = End { t: (min - origin) * inv, face: low_face };
-        let high = End { t: (max - origin) * inv, face: high_face };
-        Some(if inv < S::ZERO {
+        let low = End { t: to(min), face: low_face };
+        let high = End { t: to(max), face: high_face };
+        Some(if backward {
             Span { enter: high, exit: low }
         } else {
             Span { enter: low, exit: high }
         })
+    }
+
+    /// The part of a ray within the box, in the scene's axes, or `None` beside it.
+    #[inline]
+    fn crossing(&self, line: &Line<S>) -> Option<Span<S>> {
+        let mut span = Span::whole();
+        for (axis, inverse) in Axis::ALL.into_iter().zip(line.inv_dir) {
+            let origin = line.origin.get(axis);
+            let way = [S::is_parallel(inverse), S::is_backward(inverse)];
+            let within = |min: S, max: S| min <= origin && origin <= max;
+            let slab = self.slab(axis, way, within, |side| S::quotient(side, origin, inverse))?;
+            span.clip(&slab);
+        }
+        Some(span)
+    }
+
+    /// The same in coordinates of its own, in the parameter of the local ray.
+    #[inline]
+    fn placed_crossing(&self, ray: &Local<S>) -> Option<Span<S::Wide>> {
+        let mut span = Span::whole();
+        for axis in Axis::ALL {
+            let origin = ray.origin.get(axis);
+            let inverse = S::Wide::ONE / ray.dir.get(axis);
+            let way = [!inverse.is_finite(), inverse < S::Wide::ZERO];
+            let within = |min: S, max: S| min.widen() <= origin && origin <= max.widen();
+            let slab = self.slab(axis, way, within, |side| (side.widen() - origin) * inverse)?;
+            span.clip(&slab);
+        }
+        Some(span)
     }
 
     /// Whether the ray goes through more than an edge or a corner, decided exactly: it enters
@@ -60,37 +95,38 @@ impl<S: Scalar> Cuboid<S> {
     fn is_crossed(&self, line: &Line<S>) -> bool {
         let end = |axis: Axis, upper: bool| {
             let side = if upper { self.max } else { self.min };
-            [side.get(axis), line.origin.get(axis), line.dir.get(axis)]
+            (side.get(axis), line.origin.get(axis), line.dir.get(axis))
         };
-        let moving = |axis: &Axis| line.inv_dir.get(*axis).is_finite();
-        Axis::ALL.into_iter().filter(moving).all(|a| {
-            let enter = end(a, line.dir.get(a) < S::ZERO);
-            Axis::ALL
-                .into_iter()
-                .filter(moving)
-                .all(|b| a == b || S::precedes(enter, end(b, line.dir.get(b) > S::ZERO)))
+        let zero = S::Unit::ZERO;
+        let moving = || {
+            let axes = Axis::ALL.into_iter().zip(line.inv_dir);
+            axes.filter(|&(_, inverse)| !S::is_parallel(inverse)).map(|(axis, _)| axis)
+        };
+        moving().all(|a| {
+            let enter = end(a, line.dir.get(a) < zero);
+            moving().all(|b| a == b || S::precedes(enter, end(b, line.dir.get(b) > zero)))
         })
     }
 
     /// The span of a ray from a face to its inner side: it ends at the nearest side ahead,
     /// and is never empty.
-    fn exit(&self, origin: S::Vec3, dir: S::Vec3, face: u16) -> Span<S> {
-        let mut span = Span::of_face(face, S::ZERO, S::FAR);
+    fn exit(&self, origin: S::Vec3, dir: S::WideVec, face: u16) -> Span<S> {
+        let mut exit = End { t: S::Wide::FAR, face };
         for axis in Axis::ALL {
             let (low_face, high_face) = faces(axis);
             let (o, d) = (origin.get(axis), dir.get(axis));
-            let (side, ahead) = if d < S::ZERO {
+            let (side, ahead) = if d < S::Wide::ZERO {
                 (self.min.get(axis), low_face)
             } else {
                 (self.max.get(axis), high_face)
             };
-            let t = (side - o) / d;
-            if d != S::ZERO && ahead != face && t < span.exit.t {
-                span.exit = End { t, face: ahead };
+            let t = (side - o).widen() / d;
+            if d != S::Wide::ZERO && ahead != face && t < exit.t {
+                exit = End { t, face: ahead };
             }
         }
-        span.exit.t = span.exit.t.max(S::TINY);
-        span
+        let exit = End { t: S::narrow(exit.t).max(S::TINY), face: exit.face };
+        Span { enter: End { t: S::ZERO, face }, exit }
     }
 }
 
@@ -131,8 +167,8 @@ impl<S: Scalar> Primitive<S> for Cuboid<S> {
             return Bounds::between(self.min, self.max);
         };
         let centre = place.point((self.min + self.max) * S::HALF);
-        let half = (self.max - self.min) * S::HALF;
-        let [x, y, z] = place.to_world.map(|row| row.map(S::abs).dot(half));
+        let half = S::widen_vec((self.max - self.min) * S::HALF);
+        let [x, y, z] = place.to_world.map(|row| S::narrow(row.map(Number::abs).dot(half)));
         Bounds::about(centre, S::Vec3::new(x, y, z))
     }
 
@@ -149,46 +185,38 @@ impl<S: Scalar> Primitive<S> for Cuboid<S> {
             }
             return;
         }
-        let (shift, origin, inv) = match sight.place {
-            None => (S::ZERO, line.origin, line.inv_dir),
-            Some(place) => {
-                let ray = Local::recentred(line, Some(place), place.anchor);
-                (ray.shift, ray.origin, ray.dir.map(|d| S::ONE / d))
+        if let Some(place) = sight.place {
+            let ray = Local::recentred(line, Some(place), place.anchor);
+            if let Some(span) = self.placed_crossing(&ray).filter(Span::is_open) {
+                emit(span.map(|t| ray.arrive(t)));
             }
-        };
-        let mut span = Span::whole();
-        for axis in Axis::ALL {
-            match self.slab(axis, origin.get(axis), inv.get(axis)) {
-                Some(slab) => span.clip(&slab),
-                None => return,
-            }
+            return;
         }
+        let Some(mut span) = self.crossing(line) else {
+            return;
+        };
         let (enter, exit) = (span.enter.t, span.exit.t);
-        if sight.place.is_none() {
-            let rounding = enter.abs().max(exit.abs()) * (S::EPSILON * S::from_i32(4));
-            if (exit - enter).abs() <= rounding {
-                if !self.is_crossed(line) {
-                    return;
-                }
-                span.exit.t = exit.max(enter);
-                return emit(span);
+        let reach = S::rounding(enter.abs().max(exit.abs()).widen());
+        if (exit - enter).abs() <= S::narrow(reach * S::Wide::from_i32(4)) {
+            if !self.is_crossed(line) {
+                return;
             }
+            span.exit.t = exit.max(enter);
+            return emit(span);
         }
         if span.is_open() {
-            span.enter.t += shift;
-            span.exit.t += shift;
             emit(span);
         }
     }
 
-    fn snap(&self, local: S::Vec3, face: u16) -> S::Vec3 {
+    fn snap(&self, local: S::WideVec, face: u16) -> S::Vec3 {
         let (axis, side) = self.side(face);
-        local.zip(self.min, S::max).zip(self.max, S::min).with(axis, side)
+        S::narrow_vec(local).zip(self.min, S::max).zip(self.max, S::min).with(axis, side)
     }
 
-    fn normal(&self, _: S::Vec3, face: u16, _: &[S::Vec3]) -> S::Vec3 {
+    fn normal(&self, _: S::Vec3, face: u16, _: &[S::Vec3]) -> S::WideVec {
         let (axis, upper) = of_face(face);
-        S::Vec3::ZERO.with(axis, if upper { S::ONE } else { -S::ONE })
+        S::WideVec::ZERO.with(axis, if upper { S::Wide::ONE } else { -S::Wide::ONE })
     }
 
     /// The place on the face along the two axes after its own, each in 0..=1.

@@ -3,7 +3,7 @@
 use super::{Flaw, Primitive, Sight, check_centre, check_length, turn};
 use crate::bounds::Bounds;
 use crate::place::{Local, Placement};
-use crate::scalar::{Scalar, Vector};
+use crate::scalar::{Axis, Number, Real, Scalar, Vector};
 use crate::span::{End, Span};
 
 /// The side face of a cylinder or cone.
@@ -27,18 +27,18 @@ pub struct Cylinder<S: Scalar> {
 impl<S: Scalar> Cylinder<S> {
     /// The span within the endless cylinder, or `None` beside it.
     #[inline]
-    fn side(&self, ray: &Local<S>) -> Option<Span<S>> {
+    fn side(&self, ray: &Local<S>) -> Option<Span<S::Wide>> {
         let (l, d) = (ray.origin, ray.dir);
         let across = d.x().squared() + d.z().squared();
         if is_axial(across, ray.dd) {
-            let square = self.radius.squared() - (l.x().squared() + l.z().squared());
-            return (square > S::ZERO).then(Span::whole);
+            let square = self.radius.widen().squared() - (l.x().squared() + l.z().squared());
+            return (square > S::Wide::ZERO).then(Span::whole);
         }
-        let inverse = S::ONE / across;
+        let inverse = S::Wide::ONE / across;
         let middle = -(l.x() * d.x() + l.z() * d.z()) * inverse;
         let (x, z) = (l.x() + d.x() * middle, l.z() + d.z() * middle);
-        let square = self.radius.squared() - (x.squared() + z.squared());
-        (square > S::ZERO).then(|| {
+        let square = self.radius.widen().squared() - (x.squared() + z.squared());
+        (square > S::Wide::ZERO).then(|| {
             let half = (square * inverse).sqrt();
             Span::of_face(SIDE, middle - half, middle + half)
         })
@@ -86,15 +86,15 @@ impl<S: Scalar> Primitive<S> for Cylinder<S> {
         emit_common(&ray, side, &caps, emit);
     }
 
-    fn snap(&self, local: S::Vec3, face: u16) -> S::Vec3 {
-        snap_tube(local, face, self.half_height, self.radius)
+    fn snap(&self, local: S::WideVec, face: u16) -> S::Vec3 {
+        snap_tube::<S>(local, face, self.half_height, self.radius.widen())
     }
 
-    fn normal(&self, local: S::Vec3, face: u16, _: &[S::Vec3]) -> S::Vec3 {
+    fn normal(&self, local: S::Vec3, face: u16, _: &[S::Vec3]) -> S::WideVec {
         match face {
-            SIDE => S::Vec3::new(local.x(), S::ZERO, local.z()),
-            BASE => S::Vec3::new(S::ZERO, -S::ONE, S::ZERO),
-            _ => S::Vec3::new(S::ZERO, S::ONE, S::ZERO),
+            SIDE => S::widen_vec(local.with(Axis::Y, S::ZERO)),
+            BASE => S::WideVec::ZERO.with(Axis::Y, -S::Wide::ONE),
+            _ => S::WideVec::ZERO.with(Axis::Y, S::Wide::ONE),
         }
     }
 
@@ -106,19 +106,19 @@ impl<S: Scalar> Primitive<S> for Cylinder<S> {
 
 /// A ray that goes along the y axis, as far as its direction can tell.
 #[inline]
-pub(super) fn is_axial<S: Scalar>(across: S, dd: S) -> bool {
-    across <= dd * S::EPSILON.squared()
+pub(super) fn is_axial<T: Real>(across: T, dd: T) -> bool {
+    across <= dd * T::EPSILON.squared()
 }
 
 /// Where a ray that starts on the side and goes inward meets it again.
 #[inline]
-fn other_root<S: Scalar>(ray: &Local<S>) -> S {
+fn other_root<S: Scalar>(ray: &Local<S>) -> S::Wide {
     let (l, d) = (ray.origin, ray.dir);
     let across = d.x().squared() + d.z().squared();
     if is_axial(across, ray.dd) {
-        return S::FAR;
+        return S::Wide::FAR;
     }
-    ((l.x() * d.x() + l.z() * d.z()) * S::TWO).abs() / across
+    ((l.x() * d.x() + l.z() * d.z()) * S::Wide::TWO).abs() / across
 }
 
 /// The span of a ray from a face of a round body to its inner side: it ends at the side, if it
@@ -128,21 +128,21 @@ pub(super) fn tube_exit<S: Scalar>(
     ray: &Local<S>,
     half_height: S,
     face: u16,
-    side: Option<S>,
+    side: Option<S::Wide>,
 ) -> Span<S> {
-    let (y, dy) = (ray.origin.y(), ray.dir.y());
-    let mut exit = End { t: side.unwrap_or(S::ZERO), face: SIDE };
-    let mut offer = |t: S, face: u16| {
+    let (y, dy, half_height) = (ray.origin.y(), ray.dir.y(), half_height.widen());
+    let mut exit = End { t: side.unwrap_or(S::Wide::ZERO), face: SIDE };
+    let mut offer = |t: S::Wide, face: u16| {
         if t < exit.t {
             exit = End { t, face };
         }
     };
-    if dy > S::ZERO && face != TOP {
+    if dy > S::Wide::ZERO && face != TOP {
         offer((half_height - y) / dy, TOP);
-    } else if dy < S::ZERO && face != BASE {
+    } else if dy < S::Wide::ZERO && face != BASE {
         offer((-half_height - y) / dy, BASE);
     }
-    exit.t = exit.t.max(S::TINY);
+    let exit = End { t: S::narrow(exit.t).max(S::TINY), face: exit.face };
     Span { enter: End { t: S::ZERO, face }, exit }
 }
 
@@ -150,29 +150,28 @@ pub(super) fn tube_exit<S: Scalar>(
 #[inline]
 pub(super) fn emit_common<S: Scalar>(
     ray: &Local<S>,
-    mut span: Span<S>,
-    caps: &Span<S>,
+    mut span: Span<S::Wide>,
+    caps: &Span<S::Wide>,
     mut emit: impl FnMut(Span<S>),
 ) {
     span.clip(caps);
     if span.is_open() {
-        span.enter.t += ray.shift;
-        span.exit.t += ray.shift;
-        emit(span);
+        emit(span.map(|t| ray.arrive(t)));
     }
 }
 
 /// The span between two caps across the y axis, or `None` beside them. A ray in the plane of a
 /// cap is between them.
 #[inline]
-pub(super) fn caps<S: Scalar>(ray: &Local<S>, half_height: S) -> Option<Span<S>> {
-    let (y, inverse) = (ray.origin.y(), S::ONE / ray.dir.y());
+pub(super) fn caps<S: Scalar>(ray: &Local<S>, half_height: S) -> Option<Span<S::Wide>> {
+    let (y, inverse) = (ray.origin.y(), S::Wide::ONE / ray.dir.y());
+    let half_height = half_height.widen();
     if !inverse.is_finite() {
         return (y.abs() <= half_height).then(Span::whole);
     }
     let low = End { t: (-half_height - y) * inverse, face: BASE };
     let high = End { t: (half_height - y) * inverse, face: TOP };
-    Some(if inverse < S::ZERO {
+    Some(if inverse < S::Wide::ZERO {
         Span { enter: high, exit: low }
     } else {
         Span { enter: low, exit: high }
@@ -190,46 +189,49 @@ pub(super) fn tube_bounds<S: Scalar>(
         return Bounds::about(center, S::Vec3::new(radius, half_height, radius));
     };
     let [x, y, z] = place.to_world.map(|row| {
-        let across = S::Vec3::new(row.x(), S::ZERO, row.z()).length();
-        row.y().abs() * half_height + across * radius
+        let across = row.with(Axis::Y, S::Wide::ZERO).length();
+        S::narrow(row.y().abs() * half_height.widen() + across * radius.widen())
     });
     Bounds::about(place.anchor, S::Vec3::new(x, y, z))
 }
 
 /// The point of the side at this height and angle, or of a cap at this place.
 pub(super) fn snap_tube<S: Scalar>(
-    local: S::Vec3,
+    local: S::WideVec,
     face: u16,
     half_height: S,
-    radius: S,
+    radius: S::Wide,
 ) -> S::Vec3 {
-    let flat = S::Vec3::new(local.x(), S::ZERO, local.z());
+    let flat = local.with(Axis::Y, S::Wide::ZERO);
     let distance = flat.length();
-    match face {
+    let (y, flat) = match face {
         SIDE => {
-            let y = local.y().clamp(-half_height, half_height);
-            let flat = if distance > S::ZERO {
+            let flat = if distance > S::Wide::ZERO {
                 flat * (radius / distance)
             } else {
-                S::Vec3::new(radius, S::ZERO, S::ZERO)
+                S::WideVec::ZERO.with(Axis::X, radius)
             };
-            S::Vec3::new(flat.x(), y, flat.z())
+            (S::narrow(local.y()).clamp(-half_height, half_height), flat)
         }
         _ => {
             let flat = if distance > radius { flat * (radius / distance) } else { flat };
-            let y = if face == BASE { -half_height } else { half_height };
-            S::Vec3::new(flat.x(), y, flat.z())
+            (if face == BASE { -half_height } else { half_height }, flat)
         }
-    }
+    };
+    S::narrow_vec(flat).with(Axis::Y, y)
 }
 
 /// Texture coordinates of a round body along the local y axis.
 pub(super) fn tube_uv<S: Scalar>(local: S::Vec3, face: u16, half_height: S, radius: S) -> [S; 2] {
     if face == SIDE {
-        let v = (local.y() / half_height + S::ONE) * S::HALF;
+        let v = share(local.y(), half_height);
         [turn(local.x(), local.z()), v]
     } else {
-        let across = |v: S| (v / radius + S::ONE) * S::HALF;
-        [across(local.x()), across(local.z())]
+        [share(local.x(), radius), share(local.z(), radius)]
     }
+}
+
+/// Where a number lies between `-half` and `half`, in 0..=1.
+fn share<S: Scalar>(v: S, half: S) -> S {
+    S::narrow((v.widen() / half.widen() + S::Wide::ONE) * S::Wide::HALF)
 }

@@ -29,7 +29,7 @@ pub use triangle::Triangle;
 use crate::bounds::Bounds;
 use crate::place::Placement;
 use crate::ray::{Line, Start};
-use crate::scalar::{Scalar, Vector};
+use crate::scalar::{Number, Real, Scalar, Vector};
 use crate::span::Span;
 
 /// A ray as one leaf sees it.
@@ -92,9 +92,9 @@ pub trait Primitive<S: Scalar> {
     /// A component of the direction whose reciprocal is infinite counts as 0.
     fn spans(&self, sight: &Sight<'_, S>, emit: impl FnMut(Span<S>));
     /// The point of a face nearest to a local point close to it.
-    fn snap(&self, local: S::Vec3, face: u16) -> S::Vec3;
+    fn snap(&self, local: S::WideVec, face: u16) -> S::Vec3;
     /// The outward normal at a local point of a face, not of unit length; never zero.
-    fn normal(&self, local: S::Vec3, face: u16, points: &[S::Vec3]) -> S::Vec3;
+    fn normal(&self, local: S::Vec3, face: u16, points: &[S::Vec3]) -> S::WideVec;
     /// The texture coordinates of a local point of a face.
     fn uv(&self, local: S::Vec3, face: u16, points: &[S::Vec3]) -> [S; 2];
 }
@@ -191,13 +191,13 @@ impl<S: Scalar> Shape<S> {
 
     /// The point of a face nearest to a local point close to it.
     #[inline]
-    pub fn snap(&self, local: S::Vec3, face: u16) -> S::Vec3 {
+    pub fn snap(&self, local: S::WideVec, face: u16) -> S::Vec3 {
         each!(self, shape => Primitive::<S>::snap(shape, local, face))
     }
 
     /// The outward normal at a local point of a face, not of unit length.
     #[inline]
-    pub fn normal(&self, local: S::Vec3, face: u16, points: &[S::Vec3]) -> S::Vec3 {
+    pub fn normal(&self, local: S::Vec3, face: u16, points: &[S::Vec3]) -> S::WideVec {
         each!(self, shape => Primitive::<S>::normal(shape, local, face, points))
     }
 
@@ -212,6 +212,19 @@ fn check_point<S: Scalar>(p: S::Vec3, field: &'static str) -> Result<(), Flaw> {
         Err(Flaw::NotFinite(field))
     } else if p.max_abs() > S::COORD_MAX {
         Err(Flaw::TooLarge(field))
+    } else {
+        Ok(())
+    }
+}
+
+fn check_direction<S: Scalar>(dir: S::Dir, field: &'static str) -> Result<(), Flaw> {
+    let size = S::widen_dir(dir).max_abs();
+    if !dir.is_finite() {
+        Err(Flaw::NotFinite(field))
+    } else if size > S::COORD_MAX.widen() {
+        Err(Flaw::TooLarge(field))
+    } else if size < S::LENGTH_MIN.widen() {
+        Err(Flaw::Empty(field))
     } else {
         Ok(())
     }
@@ -240,5 +253,6 @@ fn unplaced(placed: bool, field: &'static str) -> Result<(), Flaw> {
 
 /// The angle of (x, z) around the y axis as a fraction of a turn, in 0..=1.
 fn turn<S: Scalar>(x: S, z: S) -> S {
-    z.atan2(x) / (S::PI * S::TWO) + S::HALF
+    let angle = z.widen().atan2(x.widen());
+    S::narrow(angle / (S::Wide::PI * S::Wide::TWO) + S::Wide::HALF)
 }

@@ -1,16 +1,16 @@
 //! The half-space below a plane.
 
-use super::{Flaw, Primitive, Sight, check_point, unplaced};
+use super::{Flaw, Primitive, Sight, check_direction, check_point, unplaced};
 use crate::bounds::Bounds;
 use crate::place::Placement;
-use crate::scalar::{Axis, Scalar, Vector};
+use crate::scalar::{Axis, Number, Scalar, Vector};
 use crate::span::Span;
 
 /// The half-space `normal · p ≤ offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane<S: Scalar> {
-    /// The outward normal, of any length but 0.
-    pub normal: S::Vec3,
+    /// The outward normal; of any length but 0 in a float, of unit length in fixed point.
+    pub normal: S::Dir,
     /// `normal · p` for a point of the plane.
     pub offset: S,
 }
@@ -19,13 +19,18 @@ impl<S: Scalar> Plane<S> {
     /// The axis that the normal is parallel to, if any.
     #[inline]
     fn axis(&self) -> Option<Axis> {
-        let [x, y, z] = self.normal.to_array().map(|v| v == S::ZERO);
+        let [x, y, z] = self.normal.to_array().map(|v| v == S::Unit::ZERO);
         match (x, y, z) {
             (false, true, true) => Some(Axis::X),
             (true, false, true) => Some(Axis::Y),
             (true, true, false) => Some(Axis::Z),
             _ => None,
         }
+    }
+
+    /// The coordinate of a plane across an axis.
+    fn level(&self, axis: Axis) -> S {
+        S::narrow(self.offset.widen() / S::widen_unit(self.normal.get(axis)))
     }
 }
 
@@ -39,17 +44,16 @@ impl<S: Scalar> Primitive<S> for Plane<S> {
 
     fn check(&self, placed: bool, _: &[S::Vec3]) -> Result<(), Flaw> {
         unplaced(placed, "normal")?;
-        check_point::<S>(self.normal, "normal")?;
-        check_point::<S>(S::Vec3::splat(self.offset), "offset")?;
-        if self.normal.max_abs() < S::LENGTH_MIN { Err(Flaw::Empty("normal")) } else { Ok(()) }
+        check_direction::<S>(self.normal, "normal")?;
+        check_point::<S>(S::Vec3::splat(self.offset), "offset")
     }
 
     fn bounds(&self, _: Option<&Placement<S>>, _: &[S::Vec3]) -> Bounds<S> {
         let mut bounds: Bounds<S> = Bounds::everywhere();
         if let Some(axis) = self.axis() {
-            let at = self.offset / self.normal.get(axis);
+            let at = self.level(axis);
             let side: Bounds<S> = Bounds::between(S::Vec3::splat(at), S::Vec3::splat(at));
-            if self.normal.get(axis) > S::ZERO {
+            if self.normal.get(axis) > S::Unit::ZERO {
                 bounds.max = bounds.max.with(axis, side.max.get(axis));
             } else {
                 bounds.min = bounds.min.with(axis, side.min.get(axis));
@@ -72,49 +76,51 @@ impl<S: Scalar> Primitive<S> for Plane<S> {
             }
             return;
         }
-        let oblique = self.normal.length_squared() != S::ONE || self.axis().is_none();
-        let dot = |v: S::Vec3| {
-            if oblique { S::dot_wide(self.normal, v) } else { self.normal.dot(v) }
-        };
-        let inverse = S::ONE / dot(line.dir);
-        let height = self.offset - dot(line.origin);
+        let normal = S::widen_dir(self.normal);
+        let oblique = normal.length_squared() != S::Wide::ONE || self.axis().is_none();
+        let dot = |v: S::WideVec| if oblique { S::dot_wide(normal, v) } else { normal.dot(v) };
+        let inverse = S::Wide::ONE / dot(line.heading());
+        let height = self.offset.widen() - dot(S::widen_vec(line.origin));
         let mut t = height * inverse;
         if !inverse.is_finite() || !t.is_finite() {
             // Parallel.
-            if height >= S::ZERO {
+            if height >= S::Wide::ZERO {
                 emit(span);
             }
             return;
         }
         if oblique {
-            t += (self.offset - dot(line.recentred(S::Vec3::ZERO, t))) * inverse;
+            let found = S::narrow(t);
+            let gap = self.offset.widen() - dot(line.recentred(S::Vec3::ZERO, found));
+            t = found.widen() + gap * inverse;
         }
-        if inverse > S::ZERO {
-            span.exit.t = t;
+        if inverse > S::Wide::ZERO {
+            span.exit.t = S::narrow(t);
         } else {
-            span.enter.t = t;
+            span.enter.t = S::narrow(t);
         }
         emit(span);
     }
 
-    fn snap(&self, local: S::Vec3, _: u16) -> S::Vec3 {
+    fn snap(&self, local: S::WideVec, _: u16) -> S::Vec3 {
         match self.axis() {
-            Some(axis) => local.with(axis, self.offset / self.normal.get(axis)),
+            Some(axis) => S::narrow_vec(local).with(axis, self.level(axis)),
             None => {
-                let gap = self.offset - self.normal.dot(local);
-                local + self.normal * (gap / self.normal.length_squared())
+                let normal = S::widen_dir(self.normal);
+                let gap = self.offset.widen() - normal.dot(local);
+                S::narrow_vec(local + normal * (gap / normal.length_squared()))
             }
         }
     }
 
-    fn normal(&self, _: S::Vec3, _: u16, _: &[S::Vec3]) -> S::Vec3 {
-        self.normal
+    fn normal(&self, _: S::Vec3, _: u16, _: &[S::Vec3]) -> S::WideVec {
+        S::widen_dir(self.normal)
     }
 
     /// Distances from the scene's origin along the two axes in the plane that
     /// [`Vector::basis`] gives.
     fn uv(&self, local: S::Vec3, _: u16, _: &[S::Vec3]) -> [S; 2] {
-        let (u, v) = self.normal.normalize().basis();
-        [local.dot(u), local.dot(v)]
+        let (u, v) = S::widen_dir(self.normal).normalize().basis();
+        [u, v].map(|axis| S::narrow(S::widen_vec(local).dot(axis)))
     }
 }

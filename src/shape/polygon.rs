@@ -1,10 +1,10 @@
 //! The plane polygon, convex or not.
 
 use super::triangle::Shear;
-use super::{Flaw, Primitive, Sight, check_point, unplaced};
+use super::{Flaw, Primitive, Sight, check_direction, check_point, unplaced};
 use crate::bounds::Bounds;
 use crate::place::Placement;
-use crate::scalar::{Scalar, Vector};
+use crate::scalar::{Number, Real, Scalar, Vector};
 use crate::span::Span;
 
 /// A polygon of consecutive points of the scene, seen from both sides. It may be concave;
@@ -16,25 +16,26 @@ pub struct Polygon<S: Scalar> {
     /// How many vertices follow, at least three.
     pub count: u32,
     /// The normal of the counterclockwise side, of unit length: [`Polygon::newell`].
-    pub normal: S::Vec3,
+    pub normal: S::Dir,
 }
 
 impl<S: Scalar> Polygon<S> {
     /// The unit normal of the plane through these vertices; zero where they span no area.
     ///
     /// Source: M. E. Newell's method, in Sutherland, Sproull and Schumacker (1974).
-    pub fn newell(vertices: &[S::Vec3]) -> S::Vec3 {
+    pub fn newell(vertices: &[S::Vec3]) -> S::Dir {
         let Some((&first, &last)) = vertices.first().zip(vertices.last()) else {
-            return S::Vec3::ZERO;
+            return S::Dir::ZERO;
         };
-        let mut previous = last - first;
-        let mut normal = S::Vec3::ZERO;
+        let first = S::widen_vec(first);
+        let mut previous = S::widen_vec(last) - first;
+        let mut normal = S::WideVec::ZERO;
         for &vertex in vertices {
-            let current = vertex - first;
+            let current = S::widen_vec(vertex) - first;
             normal += previous.cross(current);
             previous = current;
         }
-        normal.normalize()
+        S::unit(normal)
     }
 
     fn vertices<'a>(&self, points: &'a [S::Vec3]) -> &'a [S::Vec3] {
@@ -63,18 +64,23 @@ impl<S: Scalar> Primitive<S> for Polygon<S> {
         for &vertex in vertices {
             check_point::<S>(vertex, "vertices")?;
         }
-        check_point::<S>(self.normal, "normal")?;
+        check_direction::<S>(self.normal, "normal")?;
         let newell = Self::newell(vertices);
-        if newell == S::Vec3::ZERO {
+        if newell == S::Dir::ZERO {
             return Err(Flaw::Empty("vertices"));
         }
-        let agrees = (newell - self.normal).max_abs() <= S::from_ratio(1, 1000);
+        let (newell, share) = (S::widen_dir(newell), S::Wide::from_ratio(1, 1000));
+        let agrees = (newell - S::widen_dir(self.normal)).max_abs() <= share;
         if !agrees {
             return Err(Flaw::NotPlanar("normal"));
         }
-        let size = vertices.iter().fold(S::ZERO, |size, &v| size.max((v - first).max_abs()));
-        let off = vertices.iter().fold(S::ZERO, |off, &v| off.max((v - first).dot(newell).abs()));
-        if off <= size * S::from_ratio(1, 1000) { Ok(()) } else { Err(Flaw::NotPlanar("vertices")) }
+        let (mut size, mut off) = (S::Wide::ZERO, S::Wide::ZERO);
+        for &vertex in vertices {
+            let from = S::widen_vec(vertex) - S::widen_vec(first);
+            size = size.max(from.max_abs());
+            off = off.max(from.dot(newell).abs());
+        }
+        if off <= size * share { Ok(()) } else { Err(Flaw::NotPlanar("vertices")) }
     }
 
     fn bounds(&self, _: Option<&Placement<S>>, points: &[S::Vec3]) -> Bounds<S> {
@@ -94,37 +100,41 @@ impl<S: Scalar> Primitive<S> for Polygon<S> {
             return;
         }
         let shear = Shear::new(line);
-        let (mut inside, mut near, mut far) = (false, S::FAR, -S::FAR);
-        let [mut px, mut py, _] = shear.across(last, line.origin);
+        let (zero, origin) = (S::Wide::ZERO, S::widen_vec(line.origin));
+        let (mut inside, mut near, mut far) = (false, S::Wide::FAR, -S::Wide::FAR);
+        let [mut px, mut py, _] = shear.across(S::widen_vec(last), origin);
         for &vertex in vertices {
-            let [qx, qy, depth] = shear.across(vertex, line.origin);
+            let [qx, qy, depth] = shear.across(S::widen_vec(vertex), origin);
             (near, far) = (near.min(depth), far.max(depth));
-            let upward = qy > S::ZERO;
-            if (py > S::ZERO) != upward {
+            let upward = qy > zero;
+            if (py > zero) != upward {
                 let side = S::det2(px, qy, qx, py);
-                inside ^= if upward { side > S::ZERO } else { side < S::ZERO };
+                inside ^= if upward { side > zero } else { side < zero };
             }
             [px, py] = [qx, qy];
         }
         if inside {
-            let speed = self.normal.dot(line.dir);
-            let t = (first - line.origin).dot(self.normal) / speed;
-            emit(Span::touch(if speed == S::ZERO { near } else { t.clamp(near, far) }));
+            let normal = S::widen_dir(self.normal);
+            let speed = normal.dot(line.heading());
+            let t = (S::widen_vec(first) - origin).dot(normal) / speed;
+            let t = if speed == zero { near } else { t.clamp(near, far) };
+            emit(Span::touch(S::narrow(t)));
         }
     }
 
-    fn snap(&self, local: S::Vec3, _: u16) -> S::Vec3 {
-        local
+    fn snap(&self, local: S::WideVec, _: u16) -> S::Vec3 {
+        S::narrow_vec(local)
     }
 
-    fn normal(&self, _: S::Vec3, _: u16, _: &[S::Vec3]) -> S::Vec3 {
-        self.normal
+    fn normal(&self, _: S::Vec3, _: u16, _: &[S::Vec3]) -> S::WideVec {
+        S::widen_dir(self.normal)
     }
 
     /// Distances from the first vertex along two axes in the plane.
     fn uv(&self, local: S::Vec3, _: u16, points: &[S::Vec3]) -> [S; 2] {
-        let (u, v) = self.normal.basis();
-        let from = self.vertices(points).first().map_or(local, |&first| local - first);
-        [from.dot(u), from.dot(v)]
+        let (u, v) = S::widen_dir(self.normal).basis();
+        let first = self.vertices(points).first().copied().unwrap_or_default();
+        let from = S::widen_vec(local) - S::widen_vec(first);
+        [u, v].map(|axis| S::narrow(from.dot(axis)))
     }
 }

@@ -3,7 +3,7 @@
 use super::{Flaw, Primitive, Sight, check_centre, check_length, turn};
 use crate::bounds::Bounds;
 use crate::place::{Local, Placement};
-use crate::scalar::{Axis, Scalar, Vector};
+use crate::scalar::{Axis, Number, Real, Scalar, Vector};
 use crate::span::Span;
 
 /// A ball.
@@ -32,7 +32,8 @@ impl<S: Scalar> Primitive<S> for Sphere<S> {
         match place {
             None => Bounds::about(self.center, S::Vec3::splat(self.radius)),
             Some(place) => {
-                let [x, y, z] = place.to_world.map(|row| row.length() * self.radius);
+                let radius = self.radius.widen();
+                let [x, y, z] = place.to_world.map(|row| S::narrow(row.length() * radius));
                 Bounds::about(place.anchor, S::Vec3::new(x, y, z))
             }
         }
@@ -45,8 +46,8 @@ impl<S: Scalar> Primitive<S> for Sphere<S> {
         if let Some(start) = sight.start {
             if start.inward {
                 let ray = Local::from_surface(sight.line, sight.place, start.local);
-                let other = (ray.origin.dot(ray.dir) * S::TWO).abs() * ray.inv_dd;
-                emit(Span::of_face(0, S::ZERO, other.max(S::TINY)));
+                let other = (ray.origin.dot(ray.dir) * S::Wide::TWO).abs() * ray.inv_dd;
+                emit(Span::of_face(0, S::ZERO, S::narrow(other).max(S::TINY)));
             }
             return;
         }
@@ -56,25 +57,25 @@ impl<S: Scalar> Primitive<S> for Sphere<S> {
         let ray = Local::recentred(sight.line, sight.place, self.center);
         let middle = -ray.origin.dot(ray.dir) * ray.inv_dd;
         let nearest = ray.origin + ray.dir * middle;
-        let square = self.radius.squared() - nearest.length_squared();
-        if square > S::ZERO {
+        let square = self.radius.widen().squared() - nearest.length_squared();
+        if square > S::Wide::ZERO {
             let half = (square * ray.inv_dd).sqrt();
-            emit(Span::of_face(0, ray.shift + (middle - half), ray.shift + (middle + half)));
+            emit(Span::of_face(0, ray.arrive(middle - half), ray.arrive(middle + half)));
         }
     }
 
-    fn snap(&self, local: S::Vec3, _: u16) -> S::Vec3 {
-        let snapped = local.normalize() * self.radius;
+    fn snap(&self, local: S::WideVec, _: u16) -> S::Vec3 {
+        let snapped = S::narrow_vec(local.normalize() * self.radius.widen());
         if snapped == S::Vec3::ZERO { S::Vec3::ZERO.with(Axis::Y, self.radius) } else { snapped }
     }
 
-    fn normal(&self, local: S::Vec3, _: u16, _: &[S::Vec3]) -> S::Vec3 {
-        local
+    fn normal(&self, local: S::Vec3, _: u16, _: &[S::Vec3]) -> S::WideVec {
+        S::widen_vec(local)
     }
 
     /// Longitude from −x through −z as u, latitude from the south pole (−y) as v, both in 0..=1.
     fn uv(&self, local: S::Vec3, _: u16, _: &[S::Vec3]) -> [S; 2] {
-        let v = S::ONE - (local.y() / self.radius).acos() / S::PI;
-        [turn(local.x(), local.z()), v]
+        let angle = (local.y().widen() / self.radius.widen()).acos();
+        [turn(local.x(), local.z()), S::narrow(S::Wide::ONE - angle / S::Wide::PI)]
     }
 }

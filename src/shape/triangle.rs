@@ -4,7 +4,7 @@ use super::{Flaw, Primitive, Sight, check_point, unplaced};
 use crate::bounds::Bounds;
 use crate::place::Placement;
 use crate::ray::Line;
-use crate::scalar::{Axis, Scalar, Vector};
+use crate::scalar::{Axis, Number, Real, Scalar, Vector};
 use crate::span::Span;
 
 /// A triangle of the scene's vertices, seen from both sides; its normal is that of the
@@ -35,18 +35,24 @@ impl Triangle {
         }
     }
 
+    fn wide_corners<S: Scalar>(&self, points: &[S::Vec3]) -> Option<[S::WideVec; 3]> {
+        self.corners::<S>(points).map(|corners| corners.map(S::widen_vec))
+    }
+
     /// The shares of the corners in a point of the triangle.
-    fn shares<S: Scalar>(&self, p: S::Vec3, points: &[S::Vec3]) -> [S; 3] {
-        let Some([a, b, c]) = self.corners::<S>(points) else {
-            return [S::ONE, S::ZERO, S::ZERO];
+    fn shares<S: Scalar>(&self, p: S::Vec3, points: &[S::Vec3]) -> [S::Wide; 3] {
+        let (zero, one) = (S::Wide::ZERO, S::Wide::ONE);
+        let Some([a, b, c]) = self.wide_corners::<S>(points) else {
+            return [one, zero, zero];
         };
         let normal = (b - a).cross(c - a);
-        let inverse = S::ONE / normal.length_squared();
+        let p = S::widen_vec(p);
+        let inverse = one / normal.length_squared();
         let u = (p - a).cross(c - a).dot(normal) * -inverse;
         let v = (b - a).cross(p - a).dot(normal) * inverse;
-        let (u, v) = (u.clamp(S::ZERO, S::ONE), v.clamp(S::ZERO, S::ONE));
-        let (u, v) = if u + v > S::ONE { (u / (u + v), v / (u + v)) } else { (u, v) };
-        [S::ONE - u - v, u, v]
+        let (u, v) = (u.clamp(zero, one), v.clamp(zero, one));
+        let (u, v) = if u + v > one { (u / (u + v), v / (u + v)) } else { (u, v) };
+        [one - u - v, u, v]
     }
 
     /// The normal that light sees at a point: that of the corners, by their shares, where the
@@ -55,29 +61,30 @@ impl Triangle {
         &self,
         p: S::Vec3,
         points: &[S::Vec3],
-    ) -> Option<S::Vec3> {
-        let [na, nb, nc] = self.normals::<S>(points)?;
+    ) -> Option<S::WideVec> {
+        let [na, nb, nc] = self.normals::<S>(points)?.map(S::widen_vec);
         let [a, b, c] = self.shares::<S>(p, points);
         let normal = na * a + nb * b + nc * c;
-        (normal != S::Vec3::ZERO).then_some(normal)
+        (normal != S::WideVec::ZERO).then_some(normal)
     }
 }
 
 /// A ray's direction turned to the third of three axes, by a shear.
 #[derive(Clone, Copy)]
-pub(super) struct Shear<S> {
+pub(super) struct Shear<T> {
     axes: [Axis; 3],
-    x: S,
-    y: S,
+    x: T,
+    y: T,
     /// 1 / the direction along the third.
-    inverse: S,
+    inverse: T,
 }
 
-impl<S: Scalar> Shear<S> {
+impl<T: Real> Shear<T> {
     /// The shear along the axis in which the ray goes farthest.
     #[inline]
-    pub(super) fn new(line: &Line<S>) -> Self {
-        let [x, y, z] = line.dir.to_array().map(S::abs);
+    pub(super) fn new<S: Scalar<Wide = T>>(line: &Line<S>) -> Self {
+        let dir = line.heading();
+        let [x, y, z] = dir.to_array().map(Number::abs);
         let along = if x >= y && x >= z {
             Axis::X
         } else if y >= z {
@@ -86,15 +93,15 @@ impl<S: Scalar> Shear<S> {
             Axis::Z
         };
         let axes = [along.next(), along.next().next(), along];
-        let inverse = line.inv_dir.get(along);
-        let share = |axis: Axis| line.dir.get(axis) * inverse;
+        let inverse = T::ONE / dir.get(along);
+        let share = |axis: Axis| dir.get(axis) * inverse;
         Self { axes, x: share(along.next()), y: share(along.next().next()), inverse }
     }
 
     /// A vertex across the ray, relative to its origin, and the t of its depth. The same vertex gives the same bits
     /// whatever it is a vertex of; that is what makes shared edges watertight.
     #[inline]
-    pub(super) fn across(&self, vertex: S::Vec3, origin: S::Vec3) -> [S; 3] {
+    pub(super) fn across<V: Vector<Scalar = T>>(&self, vertex: V, origin: V) -> [T; 3] {
         let from = vertex - origin;
         let [kx, ky, kz] = self.axes;
         let depth = from.get(kz);
@@ -105,10 +112,10 @@ impl<S: Scalar> Shear<S> {
 /// A ray through an edge is inside: of the edges from one y to the next, with these edge
 /// functions, a half-line along x crosses an odd number.
 #[cold]
-fn owns_edge<S: Scalar>([ay, by, cy]: [S; 3], [ab, bc, ca]: [S; 3]) -> bool {
-    let crosses = |from: S, to: S, side: S| {
-        let upward = to > S::ZERO;
-        (from > S::ZERO) != upward && if upward { side < S::ZERO } else { side > S::ZERO }
+fn owns_edge<T: Real>([ay, by, cy]: [T; 3], [ab, bc, ca]: [T; 3]) -> bool {
+    let crosses = |from: T, to: T, side: T| {
+        let upward = to > T::ZERO;
+        (from > T::ZERO) != upward && if upward { side < T::ZERO } else { side > T::ZERO }
     };
     crosses(ay, by, ab) ^ crosses(by, cy, bc) ^ crosses(cy, ay, ca)
 }
@@ -132,8 +139,9 @@ impl<S: Scalar> Primitive<S> for Triangle {
                 check_point::<S>(normal, "normals")?;
             }
         }
+        let [a, b, c] = [a, b, c].map(S::widen_vec);
         let normal = (b - a).normalize().cross((c - a).normalize());
-        if normal.max_abs() > S::EPSILON { Ok(()) } else { Err(Flaw::Empty("corners")) }
+        if normal.max_abs() > S::EPSILON.widen() { Ok(()) } else { Err(Flaw::Empty("corners")) }
     }
 
     fn bounds(&self, _: Option<&Placement<S>>, points: &[S::Vec3]) -> Bounds<S> {
@@ -145,43 +153,43 @@ impl<S: Scalar> Primitive<S> for Triangle {
     /// two faces share belongs to one of them, by the rule of [`Polygon`](super::Polygon).
     #[inline]
     fn spans(&self, sight: &Sight<'_, S>, mut emit: impl FnMut(Span<S>)) {
-        let Some([a, b, c]) = self.corners::<S>(sight.points) else {
+        let Some([a, b, c]) = self.wide_corners::<S>(sight.points) else {
             return;
         };
         if sight.start.is_some() {
             return;
         }
-        let (line, shear) = (sight.line, Shear::new(sight.line));
-        let [[ax, ay, at], [bx, by, bt], [cx, cy, ct]] =
-            [a, b, c].map(|v| shear.across(v, line.origin));
+        let (shear, origin) = (Shear::new(sight.line), S::widen_vec(sight.line.origin));
+        let [[ax, ay, at], [bx, by, bt], [cx, cy, ct]] = [a, b, c].map(|v| shear.across(v, origin));
         let u = S::det2(cx, by, cy, bx);
         let v = S::det2(ax, cy, ay, cx);
         let w = S::det2(bx, ay, by, ax);
-        let edge = u == S::ZERO || v == S::ZERO || w == S::ZERO;
+        let zero = S::Wide::ZERO;
+        let edge = u == zero || v == zero || w == zero;
         if edge && !owns_edge([ay, by, cy], [w, u, v]) {
             return;
         }
-        let negative = u < S::ZERO || v < S::ZERO || w < S::ZERO;
-        let positive = u > S::ZERO || v > S::ZERO || w > S::ZERO;
+        let negative = u < zero || v < zero || w < zero;
+        let positive = u > zero || v > zero || w > zero;
         let sum = u + v + w;
-        if (negative && positive) || sum == S::ZERO {
+        if (negative && positive) || sum == zero {
             return;
         }
-        emit(Span::touch((u * at + v * bt + w * ct) / sum));
+        emit(Span::touch(S::narrow((u * at + v * bt + w * ct) / sum)));
     }
 
-    fn snap(&self, local: S::Vec3, _: u16) -> S::Vec3 {
-        local
+    fn snap(&self, local: S::WideVec, _: u16) -> S::Vec3 {
+        S::narrow_vec(local)
     }
 
-    fn normal(&self, _: S::Vec3, _: u16, points: &[S::Vec3]) -> S::Vec3 {
-        self.corners::<S>(points)
-            .map_or(S::Vec3::ZERO, |[a, b, c]| (b - a).normalize().cross((c - a).normalize()))
+    fn normal(&self, _: S::Vec3, _: u16, points: &[S::Vec3]) -> S::WideVec {
+        self.wide_corners::<S>(points)
+            .map_or(S::WideVec::ZERO, |[a, b, c]| (b - a).normalize().cross((c - a).normalize()))
     }
 
     /// The shares of the second and the third corner.
     fn uv(&self, local: S::Vec3, _: u16, points: &[S::Vec3]) -> [S; 2] {
         let [_, u, v] = self.shares::<S>(local, points);
-        [u, v]
+        [S::narrow(u), S::narrow(v)]
     }
 }

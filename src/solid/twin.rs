@@ -4,7 +4,7 @@
 use super::{Geometry, Node};
 use crate::place::Affine;
 use crate::ray::{Line, Ray, Start};
-use crate::scalar::{Axis, Scalar, Vector};
+use crate::scalar::{Axis, Number, Scalar, Vector};
 use crate::scene::{Fixed, Form, SceneBuilder};
 use crate::span::{Boundary, End, Operator, Passage};
 use crate::{Material, Rgb, Scene};
@@ -228,7 +228,8 @@ fn line<S: Scalar>(random: &mut Random) -> Line<S> {
         _ => random.point::<S>() - origin,
     };
     let up = S::Vec3::ZERO.with(Axis::Y, S::ONE);
-    Line::new(Ray { origin, dir: if dir == S::Vec3::ZERO { up } else { dir } }, None)
+    let dir = S::widen_vec(if dir == S::Vec3::ZERO { up } else { dir });
+    Line::new(Ray { origin, dir: S::steer(dir).0 }, None)
 }
 
 /// Evaluates random trees full of ties along random rays, and along rays that start on them.
@@ -247,8 +248,10 @@ fn compare_trees<S: Scalar>(seeds: core::ops::Range<u64>) {
                 let leaf = scene.geometry().leaf(boundary.node).unwrap();
                 let Boundary { t, node, face, .. } = boundary;
                 let contact = scene.geometry().contact(&line, leaf, End { t, face });
-                let dir = random.point::<S>() + contact.normal * S::EPSILON_ROOT;
-                let inward = dir.dot(contact.normal) < S::ZERO;
+                let aside = S::widen_vec(random.point::<S>());
+                let normal = S::widen_dir(contact.normal);
+                let dir = S::steer(aside + normal * S::EPSILON_ROOT.widen()).0;
+                let inward = dir.dot(contact.normal) < S::Unit::ZERO;
                 let start = Start { node, face, inward, local: contact.local };
                 let ray = Ray { origin: contact.position, dir };
                 compare(&scene, &Line::new(ray, Some(start)));

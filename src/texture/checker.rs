@@ -1,7 +1,7 @@
 //! Alternate cells of two paints.
 
 use super::{Paint, Spot};
-use crate::place::{Placement, apply};
+use crate::place::Placement;
 use crate::scalar::{Scalar, Vector};
 
 /// Which coordinates a pattern is drawn in.
@@ -32,7 +32,7 @@ impl<S: Scalar> Checker<S> {
             Mapping::Uv => S::Vec3::new(spot.uv[0], spot.uv[1], S::ZERO),
             Mapping::Solid => {
                 match self.placement.and_then(|index| placements.get(usize::from(index))) {
-                    Some(place) => apply::<S>(&place.to_local, spot.position - place.anchor),
+                    Some(place) => S::narrow_vec(place.local(spot.position)),
                     None => spot.position,
                 }
             }

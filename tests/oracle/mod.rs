@@ -22,6 +22,27 @@ use nostray::{Affine, Ray, Scalar, Vector};
 
 const PRECISION: usize = 300;
 
+/// A format whose companions are all the number itself.
+pub trait Float:
+    Scalar<
+        Unit = Self,
+        Wide = Self,
+        Vec3 = <Self as Float>::V,
+        Dir = <Self as Float>::V,
+        WideVec = <Self as Float>::V,
+    >
+{
+    type V: Vector<Scalar = Self>;
+}
+
+impl Float for f32 {
+    type V = nostray::glam::Vec3;
+}
+
+impl Float for f64 {
+    type V = nostray::glam::DVec3;
+}
+
 /// 2 to the power 4096.
 static FAR: LazyLock<Real> = LazyLock::new(|| {
     let mut far = Real::from(2.0);
@@ -37,7 +58,7 @@ pub struct Real(FBig<HalfEven, 2>);
 
 impl Real {
     /// The exact value of a machine number.
-    pub fn of<S: Scalar>(x: S) -> Self {
+    pub fn of<S: Float>(x: S) -> Self {
         Self::from(x.to_f64())
     }
 
@@ -115,7 +136,7 @@ operator!(Add add Sub sub Mul mul Div div);
 /// Three exact numbers.
 pub type Point = [Real; 3];
 
-pub fn point<S: Scalar>(v: S::Vec3) -> Point {
+pub fn point<S: Float>(v: S::Vec3) -> Point {
     v.to_array().map(Real::of)
 }
 
@@ -165,7 +186,7 @@ pub enum Solid {
 }
 
 /// The exact inverse of the linear part of a map.
-pub fn inverse_rows<S: Scalar>(map: &Affine<S>) -> [Point; 3] {
+pub fn inverse_rows<S: Float>(map: &Affine<S>) -> [Point; 3] {
     let [a, b, c] = map.rows.map(point::<S>);
     let det = dot(&a, &cross(&b, &c));
     let columns = [cross(&b, &c), cross(&c, &a), cross(&a, &b)].map(|v| v.map(|x| &x / &det));
@@ -180,7 +201,7 @@ pub struct Path {
 }
 
 impl Path {
-    pub fn of<S: Scalar>(ray: &Ray<S>) -> Self {
+    pub fn of<S: Float>(ray: &Ray<S>) -> Self {
         Self { origin: point::<S>(ray.origin), dir: point::<S>(ray.dir) }
     }
 
@@ -405,16 +426,16 @@ pub fn along(a: [f64; 3], k: f64, b: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|i| a[i] + k * b[i])
 }
 
-pub fn vector<S: Scalar>(v: [f64; 3]) -> S::Vec3 {
+pub fn vector<S: Float>(v: [f64; 3]) -> S::Vec3 {
     S::Vec3::from_array(v.map(S::from_f64))
 }
 
-pub fn array<S: Scalar>(v: S::Vec3) -> [f64; 3] {
+pub fn array<S: Float>(v: S::Vec3) -> [f64; 3] {
     v.to_array().map(S::to_f64)
 }
 
 /// The distance between neighbours of the format around `x`.
-pub fn ulp<S: Scalar>(x: f64) -> f64 {
+pub fn ulp<S: Float>(x: f64) -> f64 {
     let exponent = x.abs().max(f64::MIN_POSITIVE).log2().floor();
     S::EPSILON.to_f64() * exponent.exp2()
 }

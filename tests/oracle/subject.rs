@@ -5,15 +5,14 @@
 use nostray::ray::{Line, Start};
 use nostray::shape::Sight;
 use nostray::{
-    Affine, Axis, Fixed, Form, Material, Node, Placement, Ray, Rgb, Scalar, SceneBuilder, Shape,
-    Vector,
+    Affine, Axis, Fixed, Form, Material, Node, Placement, Ray, Rgb, SceneBuilder, Shape, Vector,
 };
 
-use super::{Point, Random, Real, Solid, along, array, inverse_rows, point, vector};
+use super::{Float, Point, Random, Real, Solid, along, array, inverse_rows, point, vector};
 
 /// A leaf, and its exact twins: from the numbers that the user gave, and from those that the
 /// leaf stores.
-pub struct Subject<S: Scalar> {
+pub struct Subject<S: Float> {
     pub builder: SceneBuilder<S, Fixed<1, 1, 1, 1>>,
     pub shape: Shape<S>,
     pub place: Option<Placement<S>>,
@@ -58,7 +57,7 @@ impl Kind {
 
 /// A round solid whose radii are still to be multiplied.
 #[derive(Clone)]
-pub struct Plan<S: Scalar> {
+pub struct Plan<S: Float> {
     pub kind: Kind,
     pub ends: [S::Vec3; 2],
     pub radii: [f64; 2],
@@ -66,7 +65,7 @@ pub struct Plan<S: Scalar> {
     pub size: f64,
 }
 
-impl<S: Scalar> Plan<S> {
+impl<S: Float> Plan<S> {
     pub fn random(kind: Kind, random: &mut Random, size: f64, center: [f64; 3]) -> Self {
         let half = size * random.decades(-0.5, 0.5);
         let axis = match kind {
@@ -141,7 +140,7 @@ impl<S: Scalar> Plan<S> {
     }
 }
 
-impl<S: Scalar> Subject<S> {
+impl<S: Float> Subject<S> {
     pub fn new(form: Form<'_, S>, map: &Affine<S>, given: Solid, size: f64) -> Self {
         let mut builder = SceneBuilder::<S, Fixed<1, 1, 1, 1>>::new();
         let material = builder.material(Material::matte(Rgb::WHITE)).expect("room");
@@ -176,7 +175,7 @@ impl<S: Scalar> Subject<S> {
     }
 }
 
-fn stored<S: Scalar>(shape: &Shape<S>, place: Option<&Placement<S>>) -> Solid {
+fn stored<S: Float>(shape: &Shape<S>, place: Option<&Placement<S>>) -> Solid {
     let real = Real::of::<S>;
     let tube = |center: S::Vec3, half: S, radii: [S; 2]| {
         let [x, y, z] = point::<S>(center);

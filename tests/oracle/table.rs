@@ -5,11 +5,11 @@
     reason = "a measure of errors need not be the same to the bit"
 )]
 
+use nostray::Ray;
 use nostray::ray::Line;
-use nostray::{Ray, Scalar};
 
 use super::subject::Subject;
-use super::{Path, Real, Solid, array, length, ulp};
+use super::{Float, Path, Real, Solid, array, length, ulp};
 
 /// What a class of rays showed.
 #[derive(Default)]
@@ -42,13 +42,7 @@ pub struct Size {
 }
 
 impl Row {
-    pub fn take<S: Scalar>(
-        &mut self,
-        subject: &Subject<S>,
-        exact: &Solid,
-        size: Size,
-        ray: Ray<S>,
-    ) {
+    pub fn take<S: Float>(&mut self, subject: &Subject<S>, exact: &Solid, size: Size, ray: Ray<S>) {
         self.rays += 1;
         let path = Path::of(&ray);
         let found = subject.span(ray);
@@ -74,7 +68,7 @@ impl Row {
         }
     }
 
-    fn measure<S: Scalar>(&mut self, found: [f64; 2], truth: &[Real; 2], size: f64, ray: Ray<S>) {
+    fn measure<S: Float>(&mut self, found: [f64; 2], truth: &[Real; 2], size: f64, ray: Ray<S>) {
         let speed = length(array::<S>(ray.dir));
         // What is thinner than the numbers are apart is made as thick: its exit is no measure.
         let [enter, exit] = found;
@@ -108,7 +102,7 @@ impl Row {
 pub struct Table(String);
 
 impl Table {
-    pub fn new<S: Scalar>(title: &str) -> Self {
+    pub fn new<S: Float>(title: &str) -> Self {
         let title = format!("{}: {title}", S::NAME);
         Self(format!(
             "\n{title:40} {:>7} {:>7} {:>6} {:>7} {:>11} {:>11}\n",

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use nostray::{
     Affine, Attenuation, Background, Camera, Checker, Fresnel, Highlight, Light, Mapping, Material,
-    Paint, Projection, Rgb, Scalar, Scene, SceneBuilder, Spotlight, Texture, Vector,
+    Paint, Projection, Real, Rgb, Scalar, Scene, SceneBuilder, Spotlight, Texture, Vector,
 };
 
 use crate::document::{self, Document};
@@ -289,7 +289,7 @@ fn weakening<S: Scalar>(written: document::Attenuation) -> Attenuation<S> {
 }
 
 /// The direction `toward` of a light, made a unit vector before it is rounded.
-fn unit<S: Scalar>(written: Triple, path: &Path<'_>) -> Result<S::Vec3, Flaw> {
+fn unit<S: Scalar>(written: Triple, path: &Path<'_>) -> Result<S::Dir, Flaw> {
     let path = path.field("toward");
     let direction = vector::<f64>(written);
     if !direction.is_finite() {
@@ -298,7 +298,8 @@ fn unit<S: Scalar>(written: Triple, path: &Path<'_>) -> Result<S::Vec3, Flaw> {
     if direction == <f64 as Scalar>::Vec3::ZERO {
         return Err(Flaw::new(path, "must not be zero"));
     }
-    Ok(vector::<S>(Triple(Vector::to_array(Vector::normalize(direction)))))
+    let unit = Vector::to_array(Vector::normalize(direction)).map(S::Wide::from_f64);
+    Ok(S::narrow_dir(S::WideVec::from_array(unit)))
 }
 
 fn cosine<S: Scalar>(degrees: f64, path: &Path<'_>) -> Result<S, Flaw> {

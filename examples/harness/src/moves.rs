@@ -1,7 +1,7 @@
 //! Placements as people write them: a list of moves, multiplied into one map.
 
 use nostray::glam::DVec3;
-use nostray::{Affine, Axis, Scalar, Vector};
+use nostray::{Affine, Axis, Real, Scalar, Vector};
 
 use crate::document::Move;
 use crate::flaw::{Flaw, Path};
@@ -22,7 +22,7 @@ pub(crate) fn compose(moves: &[Move], path: &Path<'_>) -> Result<Affine<f64>, Fl
 
 /// The same map in another number format.
 pub(crate) fn converted<S: Scalar>(map: &Affine<f64>) -> Affine<S> {
-    let vector = |v: DVec3| S::Vec3::from_array(v.to_array().map(S::from_f64));
+    let vector = |v: DVec3| S::WideVec::from_array(v.to_array().map(S::Wide::from_f64));
     Affine { rows: map.rows.map(vector), offset: vector(map.offset) }
 }
 

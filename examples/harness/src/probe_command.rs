@@ -5,7 +5,10 @@ use std::io::{BufRead, Write};
 
 use clap::Parser;
 use nostray::glam::DVec3;
-use nostray::{Affine, Boundary, Material, Passage, Ray, Rgb, Scalar, SceneBuilder, Spans, Vector};
+use nostray::{
+    Affine, Boundary, Material, Passage, Q16, Q32, Ray, Real, Rgb, Scalar, SceneBuilder, Spans,
+    Vector,
+};
 use serde::Deserialize;
 
 use crate::assemble::{Assembly, vector};
@@ -25,7 +28,7 @@ use crate::written::Triple;
 #[derive(Clone, Debug, Parser)]
 #[command(name = "probe", disable_version_flag = true)]
 struct Options {
-    /// The number format: f32 or f64
+    /// The number format: f32, f64, or in fixed point q16 (Q16.16), q32 (Q32.32)
     #[arg(long, value_name = "S", default_value = "f32")]
     scalar: String,
 }
@@ -64,10 +67,11 @@ fn run(args: Vec<OsString>, input: &mut dyn BufRead, out: &mut dyn Write) -> Res
     let answer = match options.scalar.as_str() {
         "f32" => answer::<f32>,
         "f64" => answer::<f64>,
-        format @ ("q16" | "q32") => {
-            return Err(Failure::usage(format!("--scalar {format}: is not supported")));
+        "q16" => answer::<Q16>,
+        "q32" => answer::<Q32>,
+        other => {
+            return Err(Failure::usage(format!("--scalar {other}: is not f32, f64, q16 or q32")));
         }
-        other => return Err(Failure::usage(format!("--scalar {other}: is not f32 or f64"))),
     };
     let mut line = Vec::new();
     loop {
@@ -112,9 +116,13 @@ fn question(line: &[u8]) -> Result<Question, String> {
     Ok(question)
 }
 
-/// The powers of two that bring t from a ray of moderate direction back to the one asked about.
+/// What brings t from a ray of moderate direction back to the one asked about: two powers of
+/// two, and the length of which the ray is one.
 #[derive(Clone, Copy)]
-struct Scale([f64; 2]);
+struct Scale {
+    halves: [f64; 2],
+    length: f64,
+}
 
 /// The ray with its direction brought to a magnitude near 1 by a power of two, which changes
 /// no digit of it and keeps its square in range.
@@ -134,8 +142,9 @@ fn scaled_ray<S: Scalar>(beam: &Beam) -> Result<(Ray<S>, Scale), String> {
     let power = exponent(Vector::max_abs(wide));
     let halves = [power_of_two(-(power / 2)), power_of_two(-(power - power / 2))];
     let near = wide * halves[0] * halves[1];
-    let dir = S::Vec3::from_array(near.to_array().map(S::from_f64));
-    Ok((Ray { origin, dir }, Scale(halves)))
+    let near = S::WideVec::from_array(near.to_array().map(S::Wide::from_f64));
+    let (dir, length) = S::steer(near);
+    Ok((Ray { origin, dir }, Scale { halves, length: length.to_f64() }))
 }
 
 /// ⌊log₂ x⌋ of a positive number.
@@ -152,8 +161,8 @@ fn power_of_two(n: i32) -> f64 {
 /// The spans as JSON, with the shortest numbers that read back as the same.
 fn listed<S: Scalar>(spans: &Spans<'_, S>, scale: Scale) -> Result<String, String> {
     let number = |t: S| {
-        let [a, b] = scale.0;
-        let t = S::from_f64(t.to_f64() * a * b);
+        let [a, b] = scale.halves;
+        let t = S::from_f64(t.to_f64() / scale.length * a * b);
         if t.is_finite() {
             Ok(format!("{t:?}"))
         } else {

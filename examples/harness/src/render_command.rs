@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use nostray::{Depth, Event, Scalar, Transfer};
+use nostray::{Depth, Event, Q16, Q32, Scalar, Transfer};
 
 use crate::failure::{Failure, parse, report};
 use crate::gallery::GALLERY;
@@ -35,7 +35,7 @@ struct Options {
     /// The size in pixels [default: what the scene says, else 640x480]
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(u32, u32)>,
-    /// The number format: f32 or f64
+    /// The number format: f32, f64, or in fixed point q16 (Q16.16), q32 (Q32.32)
     #[arg(long, value_name = "S", default_value = "f32")]
     scalar: String,
     /// Samples per pixel; only 1 is supported
@@ -96,10 +96,9 @@ fn run(args: Vec<OsString>, out: &mut dyn Write, err: &mut dyn Write) -> Result<
     match options.scalar.as_str() {
         "f32" => options.picture::<f32>(out, err),
         "f64" => options.picture::<f64>(out, err),
-        "q16" | "q32" => {
-            Err(Failure::usage(format!("--scalar {}: is not supported", options.scalar)))
-        }
-        other => Err(Failure::usage(format!("--scalar {other}: is not f32 or f64"))),
+        "q16" => options.picture::<Q16>(out, err),
+        "q32" => options.picture::<Q32>(out, err),
+        other => Err(Failure::usage(format!("--scalar {other}: is not f32, f64, q16 or q32"))),
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{SceneBuilder, Storage, Store, add, add_narrow};
 use crate::error::{Item, SceneError};
 use crate::place::{Affine, Placement, apply_transposed};
-use crate::scalar::{Axis, Scalar, Vector};
+use crate::scalar::{Axis, Number, Scalar, Vector};
 use crate::shape::{Cone, Cuboid, Cylinder, Plane, Polygon, Shape, Sphere, Triangle};
 
 /// A shape as people describe it.
@@ -73,8 +73,7 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
     ) -> Result<(Shape<S>, Option<u16>), SceneError> {
         let at = Item::Node(self.nodes.entries().len() as u32);
         let singular = SceneError::SingularPlacement { at };
-        let finite = to_world.rows.iter().chain([&to_world.offset]).all(|row| row.is_finite());
-        if !finite {
+        if !to_world.is_finite() {
             return Err(SceneError::NotFinite { at, field: "placement" });
         }
         let inverse = to_world.inverse_rows().ok_or(singular)?;
@@ -83,12 +82,13 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
                 let stand =
                     Stand::new(&Affine::translate(center).then(to_world)).ok_or(singular)?;
                 let center = stand.centre();
-                let shape = Shape::Sphere(Sphere { center, radius: radius * stand.factor });
+                let shape = Shape::Sphere(Sphere { center, radius: stand.scaled(radius) });
                 Ok((shape, self.stand(&stand)?))
             }
             Form::Plane { normal, offset } => {
-                let normal = apply_transposed::<S>(&inverse, normal);
-                let offset = offset + normal.dot(to_world.offset);
+                let normal = apply_transposed::<S>(&inverse, S::widen_vec(normal));
+                let offset = offset.widen() + normal.dot(to_world.offset);
+                let (normal, offset) = S::plane(normal, offset);
                 Ok((Shape::Plane(Plane { normal, offset }), None))
             }
             Form::Box { min, max } => self.realise_box(min, max, to_world, singular),
@@ -96,8 +96,8 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
                 let (stand, half_height) = Stand::along(base, top, to_world, at)?;
                 let shape = Cylinder {
                     center: stand.centre(),
-                    half_height: half_height * stand.factor,
-                    radius: radius * stand.factor,
+                    half_height: S::narrow(half_height * stand.factor),
+                    radius: stand.scaled(radius),
                 };
                 Ok((Shape::Cylinder(shape), self.stand(&stand)?))
             }
@@ -105,9 +105,9 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
                 let (stand, half_height) = Stand::along(base, top, to_world, at)?;
                 let shape = Cone {
                     center: stand.centre(),
-                    half_height: half_height * stand.factor,
-                    base_radius: base_radius * stand.factor,
-                    top_radius: top_radius * stand.factor,
+                    half_height: S::narrow(half_height * stand.factor),
+                    base_radius: stand.scaled(base_radius),
+                    top_radius: stand.scaled(top_radius),
                 };
                 Ok((Shape::Cone(shape), self.stand(&stand)?))
             }
@@ -118,8 +118,8 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
                 }
                 let first = self.points.entries().len() as u32;
                 for normal in normals.iter().flatten() {
-                    let normal = apply_transposed::<S>(&inverse, *normal).normalize();
-                    add(&mut self.points, "points", normal)?;
+                    let normal = apply_transposed::<S>(&inverse, S::widen_vec(*normal)).normalize();
+                    add(&mut self.points, "points", S::narrow_vec(normal))?;
                 }
                 let normals = if normals.is_some() { first } else { Triangle::FLAT };
                 Ok((Shape::Triangle(Triangle { corners: indices, normals }), None))
@@ -145,16 +145,17 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
         singular: SceneError,
     ) -> Result<(Shape<S>, Option<u16>), SceneError> {
         let [x, y, z] = to_world.rows;
-        let diagonal = x.with(Axis::X, S::ZERO) == S::Vec3::ZERO
-            && y.with(Axis::Y, S::ZERO) == S::Vec3::ZERO
-            && z.with(Axis::Z, S::ZERO) == S::Vec3::ZERO;
+        let (zero, origin) = (S::Wide::ZERO, S::WideVec::ZERO);
+        let diagonal = x.with(Axis::X, zero) == origin
+            && y.with(Axis::Y, zero) == origin
+            && z.with(Axis::Z, zero) == origin;
         if diagonal {
             let (a, b) = (to_world.point(min), to_world.point(max));
             // Only a mirror may swap the corners; a box that was empty or inverted stays so.
-            let order = S::Vec3::new(x.x(), y.y(), z.z());
+            let order = S::WideVec::new(x.x(), y.y(), z.z());
             let swap = |a: S::Vec3, b: S::Vec3| {
                 let pick = |axis: Axis| {
-                    if order.get(axis) < S::ZERO { b.get(axis) } else { a.get(axis) }
+                    if order.get(axis) < zero { b.get(axis) } else { a.get(axis) }
                 };
                 S::Vec3::new(pick(Axis::X), pick(Axis::Y), pick(Axis::Z))
             };
@@ -163,7 +164,7 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
         let centre = (min + max) * S::HALF;
         let half = (max - min) * S::HALF;
         let stand = Stand::new(&Affine::translate(centre).then(to_world)).ok_or(singular)?;
-        let half = half * stand.factor;
+        let half = half.map(|v| stand.scaled(v));
         let placement = Placement::new(&stand.to_world).ok_or(singular)?;
         let index = add_narrow(&mut self.placements, "placements", placement)?;
         Ok((Shape::Box(Cuboid { min: -half, max: half }), Some(index)))
@@ -185,18 +186,21 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
 /// the shape's lengths instead.
 struct Stand<S: Scalar> {
     to_world: Affine<S>,
-    factor: S,
+    factor: S::Wide,
 }
 
 impl<S: Scalar> Stand<S> {
     fn new(to_world: &Affine<S>) -> Option<Self> {
         to_world.inverse_rows()?;
         let Some(factor) = to_world.similarity() else {
-            return Some(Self { to_world: *to_world, factor: S::ONE });
+            return Some(Self { to_world: *to_world, factor: S::Wide::ONE });
         };
-        let inverse = S::ONE / factor;
-        let rows =
-            if factor == S::ONE { to_world.rows } else { to_world.rows.map(|row| row * inverse) };
+        let inverse = S::Wide::ONE / factor;
+        let rows = if factor == S::Wide::ONE {
+            to_world.rows
+        } else {
+            to_world.rows.map(|row| row * inverse)
+        };
         Some(Self { to_world: Affine { rows, offset: to_world.offset }, factor })
     }
 
@@ -206,26 +210,31 @@ impl<S: Scalar> Stand<S> {
         top: S::Vec3,
         to_world: &Affine<S>,
         at: Item,
-    ) -> Result<(Self, S), SceneError> {
-        let axis = top - base;
+    ) -> Result<(Self, S::Wide), SceneError> {
+        let axis = S::widen_vec(top) - S::widen_vec(base);
         if !axis.is_finite() {
             return Err(SceneError::NotFinite { at, field: "base" });
         }
         let length = axis.length();
-        if !(length >= S::LENGTH_MIN) {
+        if !(length >= S::LENGTH_MIN.widen()) {
             return Err(SceneError::Empty { at, field: "top" });
         }
         let unit = axis.normalize();
-        let upright = unit == S::Vec3::ZERO.with(Axis::Y, S::ONE);
+        let upright = unit == S::WideVec::ZERO.with(Axis::Y, S::Wide::ONE);
         let rows = if upright {
             Affine::<S>::identity().rows
         } else {
             let (w, u) = unit.basis();
-            Axis::ALL.map(|axis| S::Vec3::new(u.get(axis), unit.get(axis), w.get(axis)))
+            Axis::ALL.map(|axis| S::WideVec::new(u.get(axis), unit.get(axis), w.get(axis)))
         };
-        let own = Affine { rows, offset: (base + top) * S::HALF };
+        let own = Affine { rows, offset: (S::widen_vec(base) + S::widen_vec(top)) * S::Wide::HALF };
         let stand = Self::new(&own.then(to_world)).ok_or(SceneError::SingularPlacement { at })?;
-        Ok((stand, length * S::HALF))
+        Ok((stand, length * S::Wide::HALF))
+    }
+
+    /// A length of the shape, as it is in the scene.
+    fn scaled(&self, length: S) -> S {
+        S::narrow(length.widen() * self.factor)
     }
 
     fn is_upright(&self) -> bool {
@@ -234,6 +243,6 @@ impl<S: Scalar> Stand<S> {
 
     /// The centre that the shape itself has: its place if it stands upright.
     fn centre(&self) -> S::Vec3 {
-        if self.is_upright() { self.to_world.offset } else { S::Vec3::ZERO }
+        if self.is_upright() { S::narrow_vec(self.to_world.offset) } else { S::Vec3::ZERO }
     }
 }

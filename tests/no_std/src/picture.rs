@@ -84,7 +84,7 @@ fn light<S: Scalar>(scene: &mut Builder<S>) -> Result<(), SceneError> {
     scene.light(Light::Point { at: tenths::<S>(-30, 50, 40), color: Rgb::WHITE, attenuation })?;
     let at = tenths::<S>(40, 60, 30);
     let cone = Spotlight {
-        axis: (-at).normalize(),
+        axis: S::toward(-at).0,
         cos_inner: S::from_ratio(98, 100),
         cos_outer: S::from_ratio(9, 10),
     };

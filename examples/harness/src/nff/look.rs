@@ -1,6 +1,6 @@
 //! The entities that are not objects: the view, the lights and the surfaces.
 
-use nostray::{Camera, Material, Paint, Projection, Rgb, Scalar, Vector};
+use nostray::{Camera, Material, Number, Paint, Projection, Rgb, Scalar, Vector};
 
 use super::{Lamp, NffError, Reader};
 
@@ -57,7 +57,7 @@ impl<S: Scalar> Reader<'_, S> {
     fn angle(&mut self) -> Result<S, NffError> {
         let degrees = self.words.number("angle")?;
         // Bounded first: not every number format can hold what the file says.
-        let angle = S::from_f64(Scalar::clamp(degrees, 0.0, 180.0));
+        let angle = S::from_f64(Number::clamp(degrees, 0.0, 180.0));
         if angle > S::ZERO && angle < S::from_i32(180) {
             return Ok(angle);
         }
@@ -90,7 +90,7 @@ impl<S: Scalar> Reader<'_, S> {
         if shine < 0.0 {
             return Err(self.refuse(format!("f: Shine must not be negative, and is {shine}")));
         }
-        let shininess = S::from_f64(Scalar::min(shine, S::COORD_MAX.to_f64()));
+        let shininess = S::from_f64(Number::min(shine, S::COORD_MAX.to_f64()));
         let transmit = self.amount("f: T")?;
         let stated = self.words.number("f: index of refraction")?;
         if transmit > S::ZERO && !(0.1..=10.0).contains(&stated) {
@@ -148,6 +148,6 @@ fn upright<S: Scalar>(forward: S::Vec3, wanted: S::Vec3) -> S::Vec3 {
 /// The same direction with 1 as its greatest magnitude, however small or large it was; `None`
 /// for one without a length.
 pub(super) fn within_one(direction: [f64; 3]) -> Option<[f64; 3]> {
-    let size = direction.iter().fold(0.0, |size, part| Scalar::max(size, Scalar::abs(*part)));
+    let size = direction.iter().fold(0.0, |size, part| Number::max(size, Number::abs(*part)));
     (size > 0.0).then(|| direction.map(|part| part / size))
 }

@@ -1,7 +1,7 @@
 //! Polygons as triangles, by the clipping of ears.
 
 use nostray::glam::DVec3;
-use nostray::{Axis, Polygon, Scalar, Vector};
+use nostray::{Axis, Number, Polygon, Scalar, Vector};
 
 /// A point of a polygon seen along an axis.
 type Flat = [f64; 2];
@@ -33,7 +33,7 @@ pub(super) fn triangulate(vertices: &[DVec3]) -> Vec<[usize; 3]> {
 
 /// The polygon along the axis nearest to its normal, counterclockwise.
 fn flatten(vertices: &[DVec3], normal: DVec3) -> Vec<Flat> {
-    let size = |axis: Axis| Scalar::abs(normal.get(axis));
+    let size = |axis: Axis| Number::abs(normal.get(axis));
     let along = Axis::ALL.into_iter().fold(Axis::X, |a, b| if size(b) > size(a) { b } else { a });
     let (mut u, mut v) = (along.next(), along.next().next());
     if normal.get(along) < 0.0 {
