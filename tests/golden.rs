@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::{env, fs};
 
-use nostray::{Depth, Scalar, Transfer};
+use nostray::{Depth, Q16, Q32, Scalar, Transfer};
 use nostray_harness::gallery::{Entry, GALLERY, find};
 use nostray_harness::output::digest;
 use nostray_harness::raster::{Order, Raster, render};
@@ -49,8 +49,10 @@ fn line<S: Scalar>(entry: &'static Entry) -> String {
 
 #[test]
 fn every_scene_gives_the_bits_on_record() {
-    let now: Vec<String> =
-        GALLERY.iter().flat_map(|entry| [line::<f32>(entry), line::<f64>(entry)]).collect();
+    let now: Vec<String> = GALLERY
+        .iter()
+        .flat_map(|e| [line::<f32>(e), line::<f64>(e), line::<Q16>(e), line::<Q32>(e)])
+        .collect();
     if env::var_os("NOSTRAY_BLESS").is_some() {
         let text = format!("{HEADING}{}\n", now.join("\n"));
         fs::write(RECORD, text).expect("the record can be written");
@@ -102,6 +104,12 @@ fn threads_and_rows_do_not_matter_in_single_precision() {
 fn threads_and_rows_do_not_matter_in_double_precision() {
     the_same_in_any_split::<f64>("glass");
     the_same_in_any_split::<f64>("stress");
+}
+
+#[test]
+fn threads_and_rows_do_not_matter_in_fixed_point() {
+    the_same_in_any_split::<Q16>("glass");
+    the_same_in_any_split::<Q32>("mirrors");
 }
 
 #[test]

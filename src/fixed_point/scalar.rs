@@ -155,7 +155,7 @@ macro_rules! scalar {
 
             #[inline]
             fn rounding(_: Wide) -> Wide {
-                const STEP: Wide = Wide::from_parts(1, -$fraction);
+                const STEP: Wide = Wide::from_parts(1, -$fraction - 2);
                 STEP
             }
             #[inline]

@@ -197,7 +197,7 @@ impl<S: Scalar> Primitive<S> for Cuboid<S> {
         };
         let (enter, exit) = (span.enter.t, span.exit.t);
         let reach = S::rounding(enter.abs().max(exit.abs()).widen());
-        if (exit - enter).abs() <= S::narrow(reach * S::Wide::from_i32(4)) {
+        if (exit - enter).abs() <= S::narrow(reach * S::Wide::from_i32(16)) {
             if !self.is_crossed(line) {
                 return;
             }
