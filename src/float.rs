@@ -115,6 +115,7 @@ macro_rules! float {
             type Bytes = [u8; $bytes];
 
             const NAME: &'static str = $name;
+            const REFINES: bool = true;
             const EPSILON_ROOT: Self = $root;
             const COORD_MAX: Self = $coord;
             const LENGTH_MIN: Self = $length;
@@ -232,6 +233,11 @@ macro_rules! float {
                 let (xy, xy_error) = $float::two_sum(x, y);
                 let (sum, sum_error) = $float::two_sum(xy, z);
                 sum + ((x_error + y_error + z_error) + (xy_error + sum_error))
+            }
+
+            #[inline]
+            fn height(offset: Self, normal: $vec, p: $vec) -> Self {
+                offset - Self::dot_wide(normal, p)
             }
 
             fn precedes((a, o, d): (Self, Self, Self), (b, p, e): (Self, Self, Self)) -> bool {

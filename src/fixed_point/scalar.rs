@@ -4,7 +4,7 @@
 use super::number::{Q16, Q32, Unit16, Unit32};
 use super::triple::Triple;
 use super::wide::Wide;
-use crate::scalar::{Scalar, Vector};
+use crate::scalar::{Number, Scalar, Vector};
 
 macro_rules! scalar {
     (
@@ -41,6 +41,7 @@ macro_rules! scalar {
             type Bytes = [u8; $size];
 
             const NAME: &'static str = $label;
+            const REFINES: bool = false;
             const EPSILON_ROOT: Self = Self::from_bits($root);
             const COORD_MAX: Self = Self::from_bits($coord);
             const LENGTH_MIN: Self = Self::from_bits($length);
@@ -164,7 +165,12 @@ macro_rules! scalar {
             }
             #[inline]
             fn dot_wide(a: Triple<Wide>, b: Triple<Wide>) -> Wide {
-                a.dot(b)
+                Wide::sum_of_products([(a.x, b.x), (a.y, b.y), (a.z, b.z)])
+            }
+            #[inline]
+            fn height(offset: Wide, normal: Triple<Wide>, p: Triple<Wide>) -> Wide {
+                let (x, y, z) = (-normal.x, -normal.y, -normal.z);
+                Wide::sum_of_products([(offset, Wide::ONE), (x, p.x), (y, p.y), (z, p.z)])
             }
             fn precedes((a, o, d): (Self, Self, $unit), (b, p, e): (Self, Self, $unit)) -> bool {
                 let product = |to: Self, from: Self, by: $unit| {

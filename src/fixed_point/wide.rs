@@ -103,6 +103,21 @@ impl Wide {
         (self.mantissa as i128 * other.mantissa as i128, self.exponent + other.exponent)
     }
 
+    /// A sum of products of 126 bits each, rounded last.
+    #[inline]
+    pub(super) fn sum_of_products<const N: usize>(products: [(Self, Self); N]) -> Self {
+        let exact = products.map(|(a, b)| a.product(b));
+        let most = exact.iter().filter(|(p, _)| *p != 0).map(|(_, exponent)| *exponent).max();
+        let Some(most) = most else {
+            return Self::ZERO;
+        };
+        // Two bits to the right make room for the sum of four.
+        let sum = exact.iter().fold(0_i128, |sum, &(product, exponent)| {
+            sum + (product >> (most - exponent).clamp(0, 124) as u32 >> 2)
+        });
+        Self::from_long(sum, most + 2)
+    }
+
     /// `a·b − c·d` with the exact sign.
     pub(crate) fn det2(a: Self, b: Self, c: Self, d: Self) -> Self {
         let ((p, i), (q, j)) = (a.product(b), c.product(d));

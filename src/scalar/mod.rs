@@ -153,6 +153,8 @@ pub trait Scalar: Real + Display {
 
     /// The name of the format, as command lines spell it.
     const NAME: &'static str;
+    /// Long sums are rounded to this precision, so that a root gains from a second step.
+    const REFINES: bool;
     /// A power of two at or just above the square root of the rounding of a number near 1.
     const EPSILON_ROOT: Self;
     /// The greatest magnitude of a legal coordinate or length.
@@ -216,6 +218,8 @@ pub trait Scalar: Real + Display {
     ///
     /// Source: T. Ogita, S. M. Rump and S. Oishi, "Accurate Sum and Dot Product" (2005).
     fn dot_wide(a: Self::WideVec, b: Self::WideVec) -> Self::Wide;
+    /// `offset − normal·p`: how far a point lies below a plane, with [`dot_wide`](Self::dot_wide).
+    fn height(offset: Self::Wide, normal: Self::WideVec, p: Self::WideVec) -> Self::Wide;
     /// `(a − o)/d < (b − p)/e` for `(a, o, d)` and `(b, p, e)`, decided exactly; `d` and `e`
     /// are not 0.
     fn precedes(first: (Self, Self, Self::Unit), second: (Self, Self, Self::Unit)) -> bool;

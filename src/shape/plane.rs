@@ -78,9 +78,13 @@ impl<S: Scalar> Primitive<S> for Plane<S> {
         }
         let normal = S::widen_dir(self.normal);
         let oblique = normal.length_squared() != S::Wide::ONE || self.axis().is_none();
-        let dot = |v: S::WideVec| if oblique { S::dot_wide(normal, v) } else { normal.dot(v) };
-        let inverse = S::Wide::ONE / dot(line.heading());
-        let height = self.offset.widen() - dot(S::widen_vec(line.origin));
+        let (offset, origin) = (self.offset.widen(), S::widen_vec(line.origin));
+        let (speed, height) = if oblique {
+            (S::dot_wide(normal, line.heading()), S::height(offset, normal, origin))
+        } else {
+            (normal.dot(line.heading()), offset - normal.dot(origin))
+        };
+        let inverse = S::Wide::ONE / speed;
         let mut t = height * inverse;
         if !inverse.is_finite() || !t.is_finite() {
             // Parallel.
@@ -89,9 +93,9 @@ impl<S: Scalar> Primitive<S> for Plane<S> {
             }
             return;
         }
-        if oblique {
+        if oblique && S::REFINES {
             let found = S::narrow(t);
-            let gap = self.offset.widen() - dot(line.recentred(S::Vec3::ZERO, found));
+            let gap = S::height(offset, normal, line.recentred(S::Vec3::ZERO, found));
             t = found.widen() + gap * inverse;
         }
         if inverse > S::Wide::ZERO {
