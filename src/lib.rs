@@ -6,7 +6,8 @@
 //!
 //! | module | holds |
 //! | --- | --- |
-//! | [`scalar`] | the number that everything is made of, and the vector of three |
+//! | [`scalar`] | the number that everything is made of, its companions, and the vector of three |
+//! | [`fixed_point`] | that number in fixed point; the floats need no names |
 //! | [`ray`], [`place`] | rays and where they start; the coordinates of placed solids |
 //! | [`span`], [`bounds`] | intervals of a ray and set operations on them; boxes |
 //! | [`shape`], [`solid`] | the solids; trees of them by set operations |

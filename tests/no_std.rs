@@ -13,6 +13,8 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use nostray::{Q16, Q32, Scalar};
+
 #[path = "no_std/src/picture.rs"]
 mod picture;
 
@@ -27,56 +29,102 @@ fn run(what: &str, command: &mut Command) -> Output {
     output
 }
 
-/// Builds the static library, for the host, as a firmware would be built.
-fn build(crate_folder: &Path, target_folder: &Path) -> PathBuf {
+/// Builds the static library, for the host, as a firmware would be built, and links it into a
+/// program, leaving out what nothing refers to.
+fn program(float: bool) -> PathBuf {
+    let crate_folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/no_std");
+    let name = if float { "no_std_float" } else { "no_std_fixed" };
+    let target_folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo
         .args(["build", "--offline", "--release", "--quiet"])
+        .args(if float { &["--features", "float"][..] } else { &[] })
         .arg("--manifest-path")
         .arg(crate_folder.join("Cargo.toml"))
         .arg("--target-dir")
-        .arg(target_folder);
+        .arg(&target_folder);
     // The settings of the build that runs this test are not those of a firmware.
     for name in ["RUSTFLAGS", "CARGO_ENCODED_RUSTFLAGS", "CARGO_BUILD_TARGET", "RUSTC_WRAPPER"] {
         cargo.env_remove(name);
     }
     run("the build without std and alloc", &mut cargo);
-    target_folder.join("release/libnostray_bare.a")
-}
-
-/// Links the library into a program, leaving out what nothing refers to.
-fn link(crate_folder: &Path, library: &Path) -> PathBuf {
+    let library = target_folder.join("release/libnostray_bare.a");
     let program = library.with_file_name("nostray_bare");
     let sweep = if cfg!(target_vendor = "apple") { "-Wl,-dead_strip" } else { "-Wl,--gc-sections" };
     let mut cc = Command::new(env::var_os("CC").unwrap_or_else(|| "cc".into()));
-    cc.arg(crate_folder.join("main.c")).arg(library).arg(sweep).arg("-o").arg(&program);
+    cc.arg(crate_folder.join("main.c")).arg(&library).arg(sweep).arg("-o").arg(&program);
+    cc.args(if float { &["-DFLOAT"][..] } else { &[] });
     run("the C compiler, which links the proof", &mut cc);
     program
+}
+
+/// The digests that a program prints.
+fn digests(program: &Path) -> Vec<String> {
+    let output = run("the program without std and alloc", &mut Command::new(program));
+    let printed = String::from_utf8_lossy(&output.stdout);
+    printed.split_whitespace().map(str::to_owned).collect()
+}
+
+/// The digest that this test itself computes.
+fn hosted<S: Scalar>() -> String {
+    format!("{:016x}", picture::digest::<S>().expect("the scene is legal"))
+}
+
+/// The symbols of a program that stand for a panic, text formatting or an allocation.
+fn unwelcome(program: &Path) -> Vec<String> {
+    let symbols = run("nm, which lists symbols", Command::new("nm").arg(program));
+    let symbols = String::from_utf8_lossy(&symbols.stdout);
+    assert!(symbols.contains("nostray"), "the program has no symbols to judge by");
+    let bad = ["panicking", "_fail", "unwrap_failed", "rust_alloc", "rust_dealloc", "core3fmt"];
+    let found = symbols.lines().filter(|name| bad.iter().any(|part| name.contains(part)));
+    found.map(str::to_owned).collect()
+}
+
+/// The instructions of a program that compute with floats, on x86-64 and AArch64. Moves of
+/// whole registers are none: they copy what is no number.
+fn float_instructions(program: &Path) -> Vec<String> {
+    let mut objdump = Command::new("objdump");
+    let listing = run("objdump", objdump.args(["-d", "--no-show-raw-insn"]).arg(program));
+    let listing = String::from_utf8_lossy(&listing.stdout).into_owned();
+    assert!(listing.lines().count() > 5000, "the program has no code to judge by");
+    let computes = |mnemonic: &str| {
+        let sse = mnemonic.trim_start_matches('v');
+        let scalar = ["ss", "sd", "ps", "pd"].iter().any(|kind| sse.ends_with(kind));
+        let verbs = ["add", "sub", "mul", "div", "sqrt", "min", "max", "comi", "ucomi", "cmp"];
+        (scalar && verbs.iter().any(|verb| sse.starts_with(verb)))
+            || (sse.starts_with("cvt") && sse != "cvt")
+            || ["fadd", "fsub", "fmul", "fdiv", "fsqrt", "fcmp", "fcvt", "fld", "fst", "fild"]
+                .iter()
+                .any(|verb| mnemonic.starts_with(verb))
+            || ["scvtf", "ucvtf", "fmadd", "fmsub"].contains(&mnemonic)
+    };
+    let lines = listing.lines().filter(|line| {
+        let mnemonic = line.split('\t').nth(1).and_then(|code| code.split_whitespace().next());
+        mnemonic.is_some_and(computes)
+    });
+    lines.map(str::to_owned).collect()
 }
 
 #[test]
 #[cfg(unix)]
 fn the_core_runs_without_std_and_alloc_and_cannot_panic() {
-    let crate_folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/no_std");
-    let target_folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("no_std");
-    let library = build(&crate_folder, &target_folder);
-    let program = link(&crate_folder, &library);
-
-    let output = run("the program without std and alloc", &mut Command::new(&program));
-    let single = picture::digest::<f32>().expect("the scene is legal in f32");
-    let double = picture::digest::<f64>().expect("the scene is legal in f64");
-    assert_ne!(single, double, "two formats cannot give the same bits");
-    let bare = String::from_utf8_lossy(&output.stdout);
-    assert_eq!(bare.trim(), format!("{single:016x} {double:016x}"), "bare against hosted");
-
-    let symbols = run("nm, which lists symbols", Command::new("nm").arg(&program));
-    let symbols = String::from_utf8_lossy(&symbols.stdout);
-    assert!(symbols.contains("nostray"), "the program has no symbols to judge by");
-    let unwelcome = |name: &&str| {
-        ["panicking", "_fail", "unwrap_failed", "rust_alloc", "rust_dealloc", "core3fmt"]
-            .iter()
-            .any(|part| name.contains(part))
-    };
-    let found: Vec<&str> = symbols.lines().filter(unwelcome).collect();
+    let program = program(true);
+    let all = [hosted::<Q16>(), hosted::<Q32>(), hosted::<f32>(), hosted::<f64>()];
+    let different: std::collections::BTreeSet<&String> = all.iter().collect();
+    assert_eq!(different.len(), 4, "no two formats give the same bits");
+    assert_eq!(digests(&program), all, "bare against hosted");
+    let found = unwelcome(&program);
     assert!(found.is_empty(), "the program holds a panic or an allocation:\n{}", found.join("\n"));
+    assert!(float_instructions(&program).len() > 100, "the search finds float instructions");
+}
+
+#[test]
+#[cfg(all(unix, any(target_arch = "x86_64", target_arch = "aarch64")))]
+fn fixed_point_needs_no_floating_point_instruction() {
+    let program = program(false);
+    assert_eq!(digests(&program), [hosted::<Q16>(), hosted::<Q32>()], "bare against hosted");
+    let found = unwelcome(&program);
+    assert!(found.is_empty(), "the program holds a panic or an allocation:\n{}", found.join("\n"));
+    let found = float_instructions(&program);
+    assert!(found.is_empty(), "the program computes with floats:\n{}", found.join("\n"));
 }
