@@ -10,6 +10,8 @@
 
 mod oracle;
 
+use nostray::ray::{Line, Start};
+use nostray::shape::Sight;
 use nostray::{
     Affine, Boundary, Fixed, Form, Material, Passage, Plane, Q16, Q32, Ray, Real as _, Rgb, Scalar,
     SceneBuilder, Shape, Vector,
@@ -216,4 +218,61 @@ fn q16_is_exact_to_its_steps() {
 #[test]
 fn q32_is_exact_to_its_steps() {
     table::<Q32>(20_000);
+}
+
+/// A ray from a surface inward ends on the solid's far side, one outward never meets it again.
+fn secondary<S: Exact>(kind: Kind, rays: u32) {
+    let mut random = Random::new(11);
+    let limit = S::COORD_MAX.to_f64();
+    let mut started = 0;
+    for _ in 0..rays {
+        let size = random.decades(-2.0, f64::log10(limit) - 1.0);
+        let center = random.cube().map(|x| x * limit * 0.5 * random.decades(-3.0, 0.0));
+        let subject = Subject::<S>::new(kind, &mut random, center, size);
+        let scene = subject.builder.scene().expect("a legal scene");
+        let Some(&nostray::Node::Leaf(leaf)) = scene.parts().nodes.first() else {
+            panic!("one leaf");
+        };
+        let vacant =
+            Boundary { t: S::ZERO, node: 0, face: 0, passage: Passage::Touch, inverted: false };
+        let ray = ray::<S>(&mut random, center, size, limit);
+        let Some(hit) = scene.nearest(ray, &mut [vacant; 2]).expect("room") else {
+            continue;
+        };
+        started += 1;
+        let contact = scene.contact(ray, &hit).expect("of this scene");
+        let normal = contact.normal.to_array().map(|n| S::widen_unit(n).to_f64());
+        for inward in [true, false] {
+            // Anywhere on one side, often along the surface.
+            let lift = if inward { -1.0 } else { 1.0 } * random.decades(-6.0, 0.5);
+            let aside = random.direction();
+            let along_normal: f64 = (0..3).map(|i| aside[i] * normal[i]).sum();
+            let dir = [0, 1, 2].map(|i| aside[i] + normal[i] * (lift - along_normal));
+            let dir = S::unit(S::WideVec::from_array(dir.map(S::Wide::from_f64)));
+            let face = hit.boundary.face;
+            let start = Start { node: 0, face, inward, local: contact.local };
+            let line = Line::new(Ray { origin: contact.position, dir }, Some(start));
+            let start = line.start.as_ref();
+            let place = None;
+            let mut spans = Vec::new();
+            let sight = Sight { line: &line, place, start, points: &[] };
+            leaf.shape.spans(&sight, |span| spans.push((span.enter.t, span.exit.t)));
+            match (inward, &spans[..]) {
+                (false, []) => {}
+                (true, [(enter, exit)]) => {
+                    assert!(*enter == S::ZERO && *exit > S::ZERO, "{kind:?}: {spans:?}");
+                }
+                _ => panic!("{} {kind:?}, inward {inward}: {spans:?}", S::NAME),
+            }
+        }
+    }
+    assert!(started > rays / 5, "{kind:?}: {started} hits");
+}
+
+#[test]
+fn no_ray_meets_the_surface_it_starts_on_and_none_loses_the_far_side() {
+    for kind in [Kind::Sphere, Kind::Box, Kind::Plane, Kind::Cylinder, Kind::Cone, Kind::Frustum] {
+        secondary::<Q16>(kind, 20_000);
+        secondary::<Q32>(kind, 20_000);
+    }
 }
