@@ -1,5 +1,8 @@
 //! The number for long formulas of fixed point: a mantissa of 63 bits with an exponent of its
 //! own, in integer arithmetic alone.
+//!
+//! The operations are calls, not copies: where a product takes a hundred instructions, as on
+//! the smallest cores, copies would fill the flash.
 
 use core::cmp::Ordering;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -104,7 +107,7 @@ impl Wide {
     }
 
     /// A sum of products of 126 bits each, rounded last.
-    #[inline]
+    #[inline(never)]
     pub(super) fn sum_of_products<const N: usize>(products: [(Self, Self); N]) -> Self {
         let exact = products.map(|(a, b)| a.product(b));
         let most = exact.iter().filter(|(p, _)| *p != 0).map(|(_, exponent)| *exponent).max();
@@ -156,7 +159,7 @@ impl Neg for Wide {
 
 impl Add for Wide {
     type Output = Self;
-    #[inline]
+    #[inline(never)]
     fn add(self, other: Self) -> Self {
         if other.mantissa == 0 {
             return self;
@@ -191,7 +194,7 @@ impl Sub for Wide {
 
 impl Mul for Wide {
     type Output = Self;
-    #[inline]
+    #[inline(never)]
     fn mul(self, other: Self) -> Self {
         let (product, exponent) = self.product(other);
         Self::from_long(product, exponent)
@@ -200,7 +203,7 @@ impl Mul for Wide {
 
 impl Div for Wide {
     type Output = Self;
-    #[inline]
+    #[inline(never)]
     fn div(self, other: Self) -> Self {
         let negative = (self.mantissa < 0) != (other.mantissa < 0);
         let (n, d) = (self.mantissa.unsigned_abs(), other.mantissa.unsigned_abs());
@@ -289,7 +292,7 @@ impl Real for Wide {
         let fraction = (kept >> carried) & ((1 << 52) - 1);
         f64::from_bits(sign | (biased as u64) << 52 | fraction)
     }
-    #[inline]
+    #[inline(never)]
     fn sqrt(self) -> Self {
         if self.mantissa <= 0 {
             return Self::ZERO;
