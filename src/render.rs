@@ -59,7 +59,8 @@ pub struct Pixel<S> {
     /// The linear light.
     pub color: Rgb<S>,
     /// How much light the rays that were cut by weight or budget could have added, at most:
-    /// the pixel is within this of the one that only `depth_max` cuts.
+    /// the pixel is within this of the one that only `depth_max` cuts. In fixed point the weights of
+    /// rays are rounded too, to half a step each; those roundings are not counted here.
     pub spent: S,
 }
 

@@ -10,7 +10,10 @@
 mod oracle;
 
 use nostray::fixed_point::{Unit16, Wide};
-use nostray::{Number, Q16, Q32, Real as _, Scalar};
+use nostray::{
+    Affine, Fixed, Form, Item, Material, Number, Q16, Q32, Real as _, Rgb, Scalar, SceneBuilder,
+    SceneError, Vector,
+};
 use oracle::{Random, Real};
 
 /// The nearest step to `n / 2^shift`, ties upward, within the range of an `i32`.
@@ -167,4 +170,30 @@ fn functions_agree_with_those_of_double_precision() {
     assert_eq!(Wide::from_i32(-1 << 30).exp(), Wide::ZERO);
     assert_eq!(Wide::ZERO.atan2(Wide::ZERO), Wide::ZERO);
     assert_eq!(Wide::ZERO.atan2(-Wide::ONE), Wide::PI);
+}
+
+/// What the format cannot hold with its accuracy is refused by name.
+fn refusals<S: Scalar>() {
+    let most = S::COORD_MAX;
+    let beyond = most.next_up();
+    let small = S::LENGTH_MIN * S::HALF;
+    let try_ball = |center: S, radius: S| {
+        let mut builder = SceneBuilder::<S, Fixed<1, 1, 1, 1>>::new();
+        let material = builder.material(Material::matte(Rgb::WHITE)).expect("room");
+        let center = S::Vec3::new(center, S::ZERO, S::ZERO);
+        builder.leaf(Form::Sphere { center, radius }, &Affine::identity(), material)
+    };
+    let at = Item::Node(0);
+    assert_eq!(try_ball(most, most), Ok(()));
+    assert_eq!(try_ball(beyond, S::ONE), Err(SceneError::TooLarge { at, field: "center" }));
+    assert_eq!(try_ball(-beyond, S::ONE), Err(SceneError::TooLarge { at, field: "center" }));
+    assert_eq!(try_ball(S::ZERO, beyond), Err(SceneError::TooLarge { at, field: "radius" }));
+    assert_eq!(try_ball(S::ZERO, small), Err(SceneError::NotPositive { at, field: "radius" }));
+    assert_eq!(try_ball(S::ZERO, S::ZERO), Err(SceneError::NotPositive { at, field: "radius" }));
+}
+
+#[test]
+fn what_is_out_of_range_is_refused_by_name() {
+    refusals::<Q16>();
+    refusals::<Q32>();
 }
