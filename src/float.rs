@@ -151,10 +151,6 @@ macro_rules! float {
                 wide
             }
             #[inline]
-            fn to_unit(self) -> Self {
-                self
-            }
-            #[inline]
             fn from_unit(unit: Self) -> Self {
                 unit
             }

@@ -77,10 +77,6 @@ macro_rules! scalar {
                 Self::from_bits(wide.to_fixed($fraction, $bits::MAX as i64) as $bits)
             }
             #[inline]
-            fn to_unit(self) -> $unit {
-                $unit::clamped((self.to_bits() as $long) << ($behind - $fraction))
-            }
-            #[inline]
             fn from_unit(unit: $unit) -> Self {
                 let half = 1 << ($behind - $fraction - 1);
                 Self::clamped((unit.to_bits() as $long + half) >> ($behind - $fraction))

@@ -97,7 +97,8 @@ pub trait Real: Number + Div<Output = Self> {
     const TWO: Self;
     /// π.
     const PI: Self;
-    /// The distance from 1 to the next larger number.
+    /// The distance from 1 to the next larger number; of the wide number of fixed point, the relative
+    /// precision that functions and products of matrices keep.
     const EPSILON: Self;
     /// Farther than any point of a scene: the end of an unbounded ray.
     const FAR: Self;
@@ -177,8 +178,6 @@ pub trait Scalar: Real + Display {
     fn widen(self) -> Self::Wide;
     /// The nearest number; the greatest or least one where it lies beyond.
     fn narrow(wide: Self::Wide) -> Self;
-    /// The nearest cosine; in fixed point clamped to less than 2.
-    fn to_unit(self) -> Self::Unit;
     /// The nearest number to a cosine.
     fn from_unit(unit: Self::Unit) -> Self;
     /// The same cosine, for a long formula.
