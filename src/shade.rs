@@ -65,12 +65,12 @@ impl<'a, S: Scalar> Surface<'a, S> {
         let normal = if from_within { -contact.normal } else { contact.normal };
         let textures = scene.textures();
         let uv = if textures.wants_uv(material.color) {
-            leaf.shape.uv(contact.local, face, scene.parts().points)
+            leaf.shape.uv(contact.local, face, &scene.parts().tables)
         } else {
             [S::ZERO; 2]
         };
         let color = textures.color(material.color, &Spot { position: contact.position, uv });
-        let shading = scene.shading_normal(leaf, contact.position, normal);
+        let shading = scene.shading_normal(leaf, &contact, face, normal);
         Some(Self { material, color, contact, node, face, passage, from_within, normal, shading })
     }
 

@@ -8,7 +8,7 @@
 use crate::place::{Placement, apply};
 use crate::ray::{Line, Start};
 use crate::scalar::{Number, Real, Scalar, Vector};
-use crate::shape::{Shape, Sight};
+use crate::shape::{Shape, Sight, Tables};
 use crate::span::{Boundary, End, Operator, Passage, Spans, drop_slivers, is_neutral, merge};
 
 #[cfg(test)]
@@ -58,7 +58,7 @@ pub struct Contact<S: Scalar> {
 pub(crate) struct Geometry<'a, S: Scalar> {
     pub(crate) nodes: &'a [Node<S>],
     pub(crate) placements: &'a [Placement<S>],
-    pub(crate) points: &'a [S::Vec3],
+    pub(crate) tables: &'a Tables<'a, S>,
 }
 
 /// An operator whose operands are being evaluated.
@@ -101,7 +101,7 @@ impl<'a, S: Scalar> Geometry<'a, S> {
             line,
             place: self.placement(leaf),
             start: line.start.as_ref().filter(|start| start.node == node),
-            points: self.points,
+            tables: self.tables,
         }
     }
 
@@ -117,8 +117,8 @@ impl<'a, S: Scalar> Geometry<'a, S> {
     /// The point where a ray meets a face of a leaf, drawn onto the surface.
     pub(crate) fn contact(&self, line: &Line<S>, leaf: &Leaf<S>, end: End<S>) -> Contact<S> {
         let shape = &leaf.shape;
-        let local = shape.snap(self.local_at(line, leaf, end.t), end.face);
-        let normal = shape.normal(local, end.face, self.points);
+        let local = shape.snap(self.local_at(line, leaf, end.t), end.face, self.tables);
+        let normal = shape.normal(local, end.face, self.tables);
         let (position, normal) = match self.placement(leaf) {
             None => (local + shape.centre(), normal),
             Some(place) => (place.point(local), place.normal(normal)),
@@ -144,7 +144,7 @@ impl<'a, S: Scalar> Geometry<'a, S> {
             rounding(from) * S::Wide::from_i32(4) + rounding(S::widen_vec(place)) * S::Wide::TWO
         };
         let local_wide = S::widen_vec(local);
-        let normal = leaf.shape.normal(local, face, self.points);
+        let normal = leaf.shape.normal(local, face, self.tables);
         let Some(place) = self.placement(leaf) else {
             let normal = normal.normalize();
             let moved = magnitude(normal).dot(reach(local_wide, leaf.shape.centre()));
@@ -163,7 +163,8 @@ impl<'a, S: Scalar> Geometry<'a, S> {
         let Some(leaf) = self.leaf(boundary.node) else {
             return S::Wide::ZERO;
         };
-        let local = leaf.shape.snap(self.local_at(line, leaf, boundary.t), boundary.face);
+        let local =
+            leaf.shape.snap(self.local_at(line, leaf, boundary.t), boundary.face, self.tables);
         let [moved, speed] = self.uncertainty(line, leaf, local, boundary.face);
         let speed = speed.max(least_speed(line));
         S::rounding(boundary.t.abs().widen()) * S::Wide::TWO + moved / speed
@@ -191,7 +192,7 @@ impl<'a, S: Scalar> Geometry<'a, S> {
             None => S::widen_vec(line.origin) - S::widen_vec(leaf.shape.centre()),
             Some(place) => place.local(line.origin),
         };
-        let local = leaf.shape.snap(near, end.face);
+        let local = leaf.shape.snap(near, end.face, self.tables);
         let [moved, speed] = self.uncertainty(line, leaf, local, end.face);
         let [start_moved, _] = self.uncertainty(line, origin, start.local, start.face);
         let speed = speed.max(least_speed(line));

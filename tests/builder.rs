@@ -22,7 +22,7 @@ fn assert_intact(scene: &mut Builder) {
     {
         let parts = *scene.scene().unwrap().parts();
         assert_eq!((parts.nodes.len(), parts.objects.len()), (1, 1));
-        assert_eq!((parts.placements.len(), parts.points.len()), (0, 0));
+        assert_eq!((parts.placements.len(), parts.tables.points.len()), (0, 0));
     }
     scene.leaf(SLAB, &Affine::identity(), 0).unwrap();
     assert_eq!(scene.scene().unwrap().parts().objects.len(), 2);
@@ -295,7 +295,7 @@ fn try_scene(seed: u64) -> bool {
         textures: &[],
         lights: &lights,
         placements: &placements,
-        points: &points,
+        tables: nostray::Tables { points: &points },
         camera: Camera {
             eye: Vec3::new(random.number(), random.number(), 5.0),
             look_at: Vec3::ZERO,

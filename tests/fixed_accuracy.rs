@@ -11,7 +11,7 @@
 mod oracle;
 
 use nostray::ray::{Line, Start};
-use nostray::shape::Sight;
+use nostray::shape::{Sight, Tables};
 use nostray::{
     Affine, Boundary, Fixed, Form, Material, Passage, Plane, Q16, Q32, Ray, Real as _, Rgb, Scalar,
     SceneBuilder, Shape, Vector,
@@ -255,7 +255,7 @@ fn secondary<S: Exact>(kind: Kind, rays: u32) {
             let start = line.start.as_ref();
             let place = None;
             let mut spans = Vec::new();
-            let sight = Sight { line: &line, place, start, points: &[] };
+            let sight = Sight { line: &line, place, start, tables: &Tables::EMPTY };
             leaf.shape.spans(&sight, |span| spans.push((span.enter.t, span.exit.t)));
             match (inward, &spans[..]) {
                 (false, []) => {}

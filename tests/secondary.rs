@@ -11,7 +11,7 @@
 mod oracle;
 
 use nostray::ray::Start;
-use nostray::{Affine, Axis, Boundary, Form, Passage, Ray, Shape, Vector};
+use nostray::{Affine, Axis, Boundary, Form, Passage, Ray, Shape, Tables, Vector};
 use oracle::subject::{Kind, Plan, Subject};
 use oracle::{Float, Path, Random, Real, Solid, along, array, inverse_rows, length, point, vector};
 
@@ -78,8 +78,8 @@ struct Contact<S: Float> {
 
 impl<S: Float> Contact<S> {
     fn at(subject: &Subject<S>, near: S::Vec3, face: u16) -> Self {
-        let local = subject.shape.snap(near, face);
-        let normal = subject.shape.normal(local, face, &[]);
+        let local = subject.shape.snap(near, face, &Tables::EMPTY);
+        let normal = subject.shape.normal(local, face, &Tables::EMPTY);
         let (position, normal) = match &subject.place {
             Some(place) => (place.point(local), place.normal(normal)),
             None => (local + subject.shape.centre(), normal),
@@ -155,7 +155,7 @@ impl<S: Float> Contact<S> {
         let normal = array::<S>(self.normal);
         let eps = S::EPSILON.to_f64();
         assert!((length(normal) - 1.0).abs() <= 2.0 * eps, "normal of length {}", length(normal));
-        let uv = subject.shape.uv(self.local, self.face, &[]).map(S::to_f64);
+        let uv = subject.shape.uv(self.local, self.face, &Tables::EMPTY).map(S::to_f64);
         let bounded = !matches!(subject.shape, Shape::Plane(_));
         for x in uv {
             assert!(x.is_finite());

@@ -11,7 +11,7 @@ mod oracle;
 use std::collections::HashMap;
 
 use nostray::ray::Line;
-use nostray::shape::Sight;
+use nostray::shape::{Sight, Tables};
 use nostray::{Affine, Axis, Polygon, Ray, Shape, Triangle, Vector};
 use oracle::{
     Float, Path, Point, Random, Real, along, array, cross, dot, length, point, sub, ulp, vector,
@@ -49,7 +49,8 @@ impl<S: Float> Mesh<S> {
     /// The t of every hit, before and behind the origin.
     fn hits(&self, ray: Ray<S>) -> Vec<f64> {
         let line = Line::new(ray, None);
-        let sight = Sight { line: &line, place: None, start: None, points: &self.points };
+        let tables = Tables { points: &self.points };
+        let sight = Sight { line: &line, place: None, start: None, tables: &tables };
         let mut hits = Vec::new();
         for face in &self.faces {
             face.spans(&sight, |span| {

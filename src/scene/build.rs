@@ -14,7 +14,7 @@ use crate::light::Light;
 use crate::material::Material;
 use crate::place::{Affine, Placement};
 use crate::scalar::{Axis, Scalar, Vector};
-use crate::shape::Shape;
+use crate::shape::{Shape, Tables};
 use crate::solid::{Leaf, NESTING_MAX, Node};
 use crate::span::Operator;
 use crate::texture::Texture;
@@ -271,7 +271,7 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
             textures: self.textures.entries(),
             lights: self.lights.entries(),
             placements: self.placements.entries(),
-            points: self.points.entries(),
+            tables: Tables { points: self.points.entries() },
             camera: self.camera,
             background: self.background,
             ambient: self.ambient,

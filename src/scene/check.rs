@@ -113,12 +113,12 @@ fn check_leaf<S: Scalar>(
     leaf: &Leaf<S>,
 ) -> Result<Bounds<S>, SceneError> {
     let place = leaf.placement.and_then(|index| parts.placements.get(usize::from(index)));
-    let flaw = leaf.shape.check(place.is_some(), parts.points);
+    let flaw = leaf.shape.check(place.is_some(), &parts.tables);
     flaw.map_err(|flaw| {
-        let (last, len) = (last_point(&leaf.shape), parts.points.len() as u32);
+        let (last, len) = (last_point(&leaf.shape), parts.tables.points.len() as u32);
         SceneError::of_flaw(Item::Node(node), flaw, last, len)
     })?;
-    Ok(leaf.shape.bounds(place, parts.points))
+    Ok(leaf.shape.bounds(place, &parts.tables))
 }
 
 /// The greatest index of a point that a shape names.

@@ -19,6 +19,7 @@ use crate::material::Material;
 use crate::place::Placement;
 use crate::ray::{Line, Ray};
 use crate::scalar::Scalar;
+use crate::shape::Tables;
 use crate::solid::{Geometry, Node};
 use crate::span::{Boundary, Spans};
 use crate::texture::{Texture, Textures};
@@ -58,8 +59,8 @@ pub struct Parts<'a, S: Scalar> {
     pub lights: &'a [Light<S>],
     /// The placements of leaves and textures.
     pub placements: &'a [Placement<S>],
-    /// The vertices and normals of triangles and polygons.
-    pub points: &'a [S::Vec3],
+    /// What shapes refer to: vertices and the like.
+    pub tables: Tables<'a, S>,
     /// The viewer.
     pub camera: Camera<S>,
     /// What lies behind everything.
@@ -78,7 +79,7 @@ impl<S: Scalar> Parts<'_, S> {
             textures: &[],
             lights: &[],
             placements: &[],
-            points: &[],
+            tables: Tables::EMPTY,
             camera,
             background: Background::Constant(Rgb::BLACK),
             ambient: Rgb::BLACK,
@@ -164,11 +165,11 @@ impl<'a, S: Scalar> Scene<'a, S> {
     }
 
     #[inline]
-    pub(crate) const fn geometry(&self) -> Geometry<'a, S> {
+    pub(crate) const fn geometry(&self) -> Geometry<'_, S> {
         Geometry {
             nodes: self.parts.nodes,
             placements: self.parts.placements,
-            points: self.parts.points,
+            tables: &self.parts.tables,
         }
     }
 

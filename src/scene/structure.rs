@@ -69,7 +69,7 @@ pub struct Structure {
 ///     textures: &[],
 ///     lights: &[],
 ///     placements: &[],
-///     points: &[],
+///     tables: Tables::EMPTY,
 ///     camera: Camera {
 ///         eye: Vec3::new(0.0, 0.0, 5.0),
 ///         look_at: Vec3::ZERO,

@@ -330,20 +330,20 @@ impl<'a, S: Scalar> Scene<'a, S> {
         material.map_or(S::ONE, |material| material.ior)
     }
 
-    /// The unit normal that light sees at a point of a leaf, given the one of its geometry.
+    /// The unit normal that light sees where a ray meets a face of a leaf, on the side of the true one.
     pub(crate) fn shading_normal(
         &self,
         leaf: &Leaf<S>,
-        position: S::Vec3,
+        contact: &Contact<S>,
+        face: u16,
         normal: S::Dir,
     ) -> S::Dir {
-        let crate::shape::Shape::Triangle(triangle) = leaf.shape else {
+        let Some(shading) = leaf.shape.shading_normal(contact.local, face, &self.parts.tables)
+        else {
             return normal;
         };
-        let Some(shading) = triangle.shading_normal::<S>(position, self.parts.points) else {
-            return normal;
-        };
-        let unit = S::unit(shading);
+        let place = self.geometry().placement(leaf);
+        let unit = S::unit(place.map_or(shading, |place| place.normal(shading)));
         if unit.dot(normal) < S::Unit::ZERO { -unit } else { unit }
     }
 }

@@ -3,7 +3,7 @@
 use super::cylinder::{
     BASE, SIDE, TOP, caps, emit_common, is_axial, snap_tube, tube_bounds, tube_exit, tube_uv,
 };
-use super::{Flaw, Primitive, Sight, check_centre, check_length};
+use super::{Flaw, Primitive, Sight, Tables, check_centre, check_length};
 use crate::bounds::Bounds;
 use crate::place::{Local, Placement};
 use crate::scalar::{Axis, Number, Real, Scalar, Vector};
@@ -126,14 +126,11 @@ fn half_line<T: Real>(after: bool, t: T) -> Span<T> {
 }
 
 impl<S: Scalar> Primitive<S> for Cone<S> {
-    const OPEN: bool = false;
-    const SPANS_MAX: u16 = 1;
-
     fn centre(&self) -> S::Vec3 {
         self.center
     }
 
-    fn check(&self, placed: bool, _: &[S::Vec3]) -> Result<(), Flaw> {
+    fn check(&self, placed: bool, _: &Tables<'_, S>) -> Result<(), Flaw> {
         check_centre::<S>(self.center, placed)?;
         check_length(self.half_height, "half_height")?;
         for (radius, field) in [(self.base_radius, "base_radius"), (self.top_radius, "top_radius")]
@@ -152,7 +149,7 @@ impl<S: Scalar> Primitive<S> for Cone<S> {
         if flat { Err(Flaw::NotPositive("half_height")) } else { Ok(()) }
     }
 
-    fn bounds(&self, place: Option<&Placement<S>>, _: &[S::Vec3]) -> Bounds<S> {
+    fn bounds(&self, place: Option<&Placement<S>>, _: &Tables<'_, S>) -> Bounds<S> {
         tube_bounds(place, self.center, self.half_height, self.radius_max())
     }
 
@@ -179,7 +176,7 @@ impl<S: Scalar> Primitive<S> for Cone<S> {
         emit_common(&ray, side, &caps, emit);
     }
 
-    fn snap(&self, local: S::WideVec, face: u16) -> S::Vec3 {
+    fn snap(&self, local: S::WideVec, face: u16, _: &Tables<'_, S>) -> S::Vec3 {
         let half_height = self.half_height.widen();
         let radius = match face {
             SIDE => self.radius_at(local.y().clamp(-half_height, half_height)),
@@ -189,7 +186,7 @@ impl<S: Scalar> Primitive<S> for Cone<S> {
         snap_tube::<S>(local, face, self.half_height, radius.max(S::Wide::ZERO))
     }
 
-    fn normal(&self, local: S::Vec3, face: u16, _: &[S::Vec3]) -> S::WideVec {
+    fn normal(&self, local: S::Vec3, face: u16, _: &Tables<'_, S>) -> S::WideVec {
         match face {
             SIDE => {
                 let Slant { rise, growth, .. } = self.slant();
@@ -209,7 +206,7 @@ impl<S: Scalar> Primitive<S> for Cone<S> {
     }
 
     /// As a cylinder of the greater radius.
-    fn uv(&self, local: S::Vec3, face: u16, _: &[S::Vec3]) -> [S; 2] {
+    fn uv(&self, local: S::Vec3, face: u16, _: &Tables<'_, S>) -> [S; 2] {
         tube_uv(local, face, self.half_height, self.radius_max())
     }
 }

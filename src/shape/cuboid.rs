@@ -1,6 +1,6 @@
 //! The box.
 
-use super::{Flaw, Primitive, Sight, check_point};
+use super::{Flaw, Primitive, Sight, Tables, check_point};
 use crate::bounds::Bounds;
 use crate::place::{Local, Placement};
 use crate::ray::Line;
@@ -141,14 +141,11 @@ const fn faces(axis: Axis) -> (u16, u16) {
 }
 
 impl<S: Scalar> Primitive<S> for Cuboid<S> {
-    const OPEN: bool = false;
-    const SPANS_MAX: u16 = 1;
-
     fn centre(&self) -> S::Vec3 {
         S::Vec3::ZERO
     }
 
-    fn check(&self, _: bool, _: &[S::Vec3]) -> Result<(), Flaw> {
+    fn check(&self, _: bool, _: &Tables<'_, S>) -> Result<(), Flaw> {
         check_point::<S>(self.min, "min")?;
         check_point::<S>(self.max, "max")?;
         for axis in Axis::ALL {
@@ -162,7 +159,7 @@ impl<S: Scalar> Primitive<S> for Cuboid<S> {
         Ok(())
     }
 
-    fn bounds(&self, place: Option<&Placement<S>>, _: &[S::Vec3]) -> Bounds<S> {
+    fn bounds(&self, place: Option<&Placement<S>>, _: &Tables<'_, S>) -> Bounds<S> {
         let Some(place) = place else {
             return Bounds::between(self.min, self.max);
         };
@@ -209,18 +206,18 @@ impl<S: Scalar> Primitive<S> for Cuboid<S> {
         }
     }
 
-    fn snap(&self, local: S::WideVec, face: u16) -> S::Vec3 {
+    fn snap(&self, local: S::WideVec, face: u16, _: &Tables<'_, S>) -> S::Vec3 {
         let (axis, side) = self.side(face);
         S::narrow_vec(local).zip(self.min, S::max).zip(self.max, S::min).with(axis, side)
     }
 
-    fn normal(&self, _: S::Vec3, face: u16, _: &[S::Vec3]) -> S::WideVec {
+    fn normal(&self, _: S::Vec3, face: u16, _: &Tables<'_, S>) -> S::WideVec {
         let (axis, upper) = of_face(face);
         S::WideVec::ZERO.with(axis, if upper { S::Wide::ONE } else { -S::Wide::ONE })
     }
 
     /// The place on the face along the two axes after its own, each in 0..=1.
-    fn uv(&self, local: S::Vec3, face: u16, _: &[S::Vec3]) -> [S; 2] {
+    fn uv(&self, local: S::Vec3, face: u16, _: &Tables<'_, S>) -> [S; 2] {
         let (u, v) = (of_face(face).0.next(), of_face(face).0.next().next());
         [u, v].map(|axis| {
             let (min, max) = (self.min.get(axis), self.max.get(axis));

@@ -1,6 +1,6 @@
 //! The finite cylinder with its caps.
 
-use super::{Flaw, Primitive, Sight, check_centre, check_length, turn};
+use super::{Flaw, Primitive, Sight, Tables, check_centre, check_length, turn};
 use crate::bounds::Bounds;
 use crate::place::{Local, Placement};
 use crate::scalar::{Axis, Number, Real, Scalar, Vector};
@@ -46,20 +46,17 @@ impl<S: Scalar> Cylinder<S> {
 }
 
 impl<S: Scalar> Primitive<S> for Cylinder<S> {
-    const OPEN: bool = false;
-    const SPANS_MAX: u16 = 1;
-
     fn centre(&self) -> S::Vec3 {
         self.center
     }
 
-    fn check(&self, placed: bool, _: &[S::Vec3]) -> Result<(), Flaw> {
+    fn check(&self, placed: bool, _: &Tables<'_, S>) -> Result<(), Flaw> {
         check_centre::<S>(self.center, placed)?;
         check_length(self.half_height, "half_height")?;
         check_length(self.radius, "radius")
     }
 
-    fn bounds(&self, place: Option<&Placement<S>>, _: &[S::Vec3]) -> Bounds<S> {
+    fn bounds(&self, place: Option<&Placement<S>>, _: &Tables<'_, S>) -> Bounds<S> {
         tube_bounds(place, self.center, self.half_height, self.radius)
     }
 
@@ -86,11 +83,11 @@ impl<S: Scalar> Primitive<S> for Cylinder<S> {
         emit_common(&ray, side, &caps, emit);
     }
 
-    fn snap(&self, local: S::WideVec, face: u16) -> S::Vec3 {
+    fn snap(&self, local: S::WideVec, face: u16, _: &Tables<'_, S>) -> S::Vec3 {
         snap_tube::<S>(local, face, self.half_height, self.radius.widen())
     }
 
-    fn normal(&self, local: S::Vec3, face: u16, _: &[S::Vec3]) -> S::WideVec {
+    fn normal(&self, local: S::Vec3, face: u16, _: &Tables<'_, S>) -> S::WideVec {
         match face {
             SIDE => S::widen_vec(local.with(Axis::Y, S::ZERO)),
             BASE => S::WideVec::ZERO.with(Axis::Y, -S::Wide::ONE),
@@ -99,7 +96,7 @@ impl<S: Scalar> Primitive<S> for Cylinder<S> {
     }
 
     /// The side: the angle as u, the height as v, both in 0..=1. A cap: its square in 0..=1.
-    fn uv(&self, local: S::Vec3, face: u16, _: &[S::Vec3]) -> [S; 2] {
+    fn uv(&self, local: S::Vec3, face: u16, _: &Tables<'_, S>) -> [S; 2] {
         tube_uv(local, face, self.half_height, self.radius)
     }
 }

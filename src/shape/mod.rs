@@ -41,8 +41,20 @@ pub struct Sight<'a, S: Scalar> {
     pub place: Option<&'a Placement<S>>,
     /// The ray starts on this leaf.
     pub start: Option<&'a Start<S>>,
-    /// The vertices of the scene.
+    /// What the shapes of the scene refer to.
+    pub tables: &'a Tables<'a, S>,
+}
+
+/// What shapes refer to by index, because it has no fixed size.
+#[derive(Clone, Copy, Debug)]
+pub struct Tables<'a, S: Scalar> {
+    /// Vertices and normals.
     pub points: &'a [S::Vec3],
+}
+
+impl<S: Scalar> Tables<'_, S> {
+    /// Nothing.
+    pub const EMPTY: Self = Self { points: &[] };
 }
 
 /// What is wrong with a shape's parameters.
@@ -71,20 +83,15 @@ pub enum Flaw {
 /// What every solid can tell. Local coordinates are the scene's, moved to [`centre`](Self::centre),
 /// or those of the leaf's placement.
 pub trait Primitive<S: Scalar> {
-    /// A surface without an inside.
-    const OPEN: bool;
-    /// The greatest number of spans along any ray.
-    const SPANS_MAX: u16;
-
     /// Where the local coordinates of an unplaced shape have their origin.
     fn centre(&self) -> S::Vec3;
     /// Whether every parameter is legal.
     ///
     /// # Errors
     /// The first parameter that is not.
-    fn check(&self, placed: bool, points: &[S::Vec3]) -> Result<(), Flaw>;
+    fn check(&self, placed: bool, tables: &Tables<'_, S>) -> Result<(), Flaw>;
     /// A box around the shape.
-    fn bounds(&self, place: Option<&Placement<S>>, points: &[S::Vec3]) -> Bounds<S>;
+    fn bounds(&self, place: Option<&Placement<S>>, tables: &Tables<'_, S>) -> Bounds<S>;
     /// Gives each span of the ray inside the shape, in ascending order, behind the origin too.
     /// Of a ray that starts on the shape's own surface only what lies ahead is given.
     ///
@@ -92,11 +99,16 @@ pub trait Primitive<S: Scalar> {
     /// A component of the direction whose reciprocal is infinite counts as 0.
     fn spans(&self, sight: &Sight<'_, S>, emit: impl FnMut(Span<S>));
     /// The point of a face nearest to a local point close to it.
-    fn snap(&self, local: S::WideVec, face: u16) -> S::Vec3;
+    fn snap(&self, local: S::WideVec, face: u16, tables: &Tables<'_, S>) -> S::Vec3;
     /// The outward normal at a local point of a face, not of unit length; never zero.
-    fn normal(&self, local: S::Vec3, face: u16, points: &[S::Vec3]) -> S::WideVec;
+    fn normal(&self, local: S::Vec3, face: u16, tables: &Tables<'_, S>) -> S::WideVec;
+    /// The outward normal that light sees at a local point of a face, where it is not the true one;
+    /// not of unit length.
+    fn shading_normal(&self, _: S::Vec3, _: u16, _: &Tables<'_, S>) -> Option<S::WideVec> {
+        None
+    }
     /// The texture coordinates of a local point of a face.
-    fn uv(&self, local: S::Vec3, face: u16, points: &[S::Vec3]) -> [S; 2];
+    fn uv(&self, local: S::Vec3, face: u16, tables: &Tables<'_, S>) -> [S; 2];
 }
 
 /// Any of the solids.
@@ -132,29 +144,20 @@ macro_rules! each {
     };
 }
 
-macro_rules! of_kind {
-    ($shape:expr, $constant:ident) => {
-        match $shape {
-            Shape::Sphere(_) => <Sphere<S> as Primitive<S>>::$constant,
-            Shape::Plane(_) => <Plane<S> as Primitive<S>>::$constant,
-            Shape::Box(_) => <Cuboid<S> as Primitive<S>>::$constant,
-            Shape::Cylinder(_) => <Cylinder<S> as Primitive<S>>::$constant,
-            Shape::Cone(_) => <Cone<S> as Primitive<S>>::$constant,
-            Shape::Triangle(_) => <Triangle as Primitive<S>>::$constant,
-            Shape::Polygon(_) => <Polygon<S> as Primitive<S>>::$constant,
-        }
-    };
-}
-
 impl<S: Scalar> Shape<S> {
     /// A surface without an inside.
     pub const fn is_open(&self) -> bool {
-        of_kind!(self, OPEN)
+        matches!(self, Self::Triangle(_) | Self::Polygon(_))
     }
 
     /// The greatest number of spans along any ray.
     pub const fn spans_max(&self) -> u16 {
-        of_kind!(self, SPANS_MAX)
+        match self {
+            Self::Sphere(_) | Self::Plane(_) | Self::Box(_) | Self::Cylinder(_) | Self::Cone(_) => {
+                1
+            }
+            Self::Triangle(_) | Self::Polygon(_) => 1,
+        }
     }
 
     /// Where the local coordinates of an unplaced shape have their origin.
@@ -167,13 +170,13 @@ impl<S: Scalar> Shape<S> {
     ///
     /// # Errors
     /// The first parameter that is not.
-    pub fn check(&self, placed: bool, points: &[S::Vec3]) -> Result<(), Flaw> {
-        each!(self, shape => Primitive::<S>::check(shape, placed, points))
+    pub fn check(&self, placed: bool, tables: &Tables<'_, S>) -> Result<(), Flaw> {
+        each!(self, shape => Primitive::<S>::check(shape, placed, tables))
     }
 
     /// A box around the shape, infinite for a half-space.
-    pub fn bounds(&self, place: Option<&Placement<S>>, points: &[S::Vec3]) -> Bounds<S> {
-        each!(self, shape => Primitive::<S>::bounds(shape, place, points))
+    pub fn bounds(&self, place: Option<&Placement<S>>, tables: &Tables<'_, S>) -> Bounds<S> {
+        each!(self, shape => Primitive::<S>::bounds(shape, place, tables))
     }
 
     /// Gives each span of the ray inside the shape, in ascending order, behind the origin too.
@@ -191,19 +194,31 @@ impl<S: Scalar> Shape<S> {
 
     /// The point of a face nearest to a local point close to it.
     #[inline]
-    pub fn snap(&self, local: S::WideVec, face: u16) -> S::Vec3 {
-        each!(self, shape => Primitive::<S>::snap(shape, local, face))
+    pub fn snap(&self, local: S::WideVec, face: u16, tables: &Tables<'_, S>) -> S::Vec3 {
+        each!(self, shape => Primitive::<S>::snap(shape, local, face, tables))
     }
 
     /// The outward normal at a local point of a face, not of unit length.
     #[inline]
-    pub fn normal(&self, local: S::Vec3, face: u16, points: &[S::Vec3]) -> S::WideVec {
-        each!(self, shape => Primitive::<S>::normal(shape, local, face, points))
+    pub fn normal(&self, local: S::Vec3, face: u16, tables: &Tables<'_, S>) -> S::WideVec {
+        each!(self, shape => Primitive::<S>::normal(shape, local, face, tables))
+    }
+
+    /// The outward normal that light sees at a local point of a face, where it is not the true one;
+    /// not of unit length.
+    #[inline]
+    pub fn shading_normal(
+        &self,
+        local: S::Vec3,
+        face: u16,
+        tables: &Tables<'_, S>,
+    ) -> Option<S::WideVec> {
+        each!(self, shape => Primitive::<S>::shading_normal(shape, local, face, tables))
     }
 
     /// The texture coordinates of a local point of a face.
-    pub fn uv(&self, local: S::Vec3, face: u16, points: &[S::Vec3]) -> [S; 2] {
-        each!(self, shape => Primitive::<S>::uv(shape, local, face, points))
+    pub fn uv(&self, local: S::Vec3, face: u16, tables: &Tables<'_, S>) -> [S; 2] {
+        each!(self, shape => Primitive::<S>::uv(shape, local, face, tables))
     }
 }
 

@@ -1,6 +1,6 @@
 //! The half-space below a plane.
 
-use super::{Flaw, Primitive, Sight, check_direction, check_point, unplaced};
+use super::{Flaw, Primitive, Sight, Tables, check_direction, check_point, unplaced};
 use crate::bounds::Bounds;
 use crate::place::Placement;
 use crate::scalar::{Axis, Number, Scalar, Vector};
@@ -35,20 +35,17 @@ impl<S: Scalar> Plane<S> {
 }
 
 impl<S: Scalar> Primitive<S> for Plane<S> {
-    const OPEN: bool = false;
-    const SPANS_MAX: u16 = 1;
-
     fn centre(&self) -> S::Vec3 {
         S::Vec3::ZERO
     }
 
-    fn check(&self, placed: bool, _: &[S::Vec3]) -> Result<(), Flaw> {
+    fn check(&self, placed: bool, _: &Tables<'_, S>) -> Result<(), Flaw> {
         unplaced(placed, "normal")?;
         check_direction::<S>(self.normal, "normal")?;
         check_point::<S>(S::Vec3::splat(self.offset), "offset")
     }
 
-    fn bounds(&self, _: Option<&Placement<S>>, _: &[S::Vec3]) -> Bounds<S> {
+    fn bounds(&self, _: Option<&Placement<S>>, _: &Tables<'_, S>) -> Bounds<S> {
         let mut bounds: Bounds<S> = Bounds::everywhere();
         if let Some(axis) = self.axis() {
             let at = self.level(axis);
@@ -106,7 +103,7 @@ impl<S: Scalar> Primitive<S> for Plane<S> {
         emit(span);
     }
 
-    fn snap(&self, local: S::WideVec, _: u16) -> S::Vec3 {
+    fn snap(&self, local: S::WideVec, _: u16, _: &Tables<'_, S>) -> S::Vec3 {
         match self.axis() {
             Some(axis) => S::narrow_vec(local).with(axis, self.level(axis)),
             None => {
@@ -117,13 +114,13 @@ impl<S: Scalar> Primitive<S> for Plane<S> {
         }
     }
 
-    fn normal(&self, _: S::Vec3, _: u16, _: &[S::Vec3]) -> S::WideVec {
+    fn normal(&self, _: S::Vec3, _: u16, _: &Tables<'_, S>) -> S::WideVec {
         S::widen_dir(self.normal)
     }
 
     /// Distances from the scene's origin along the two axes in the plane that
     /// [`Vector::basis`] gives.
-    fn uv(&self, local: S::Vec3, _: u16, _: &[S::Vec3]) -> [S; 2] {
+    fn uv(&self, local: S::Vec3, _: u16, _: &Tables<'_, S>) -> [S; 2] {
         let (u, v) = S::widen_dir(self.normal).normalize().basis();
         [u, v].map(|axis| S::narrow(S::widen_vec(local).dot(axis)))
     }

@@ -1,7 +1,7 @@
 //! The plane polygon, convex or not.
 
 use super::triangle::Shear;
-use super::{Flaw, Primitive, Sight, check_direction, check_point, unplaced};
+use super::{Flaw, Primitive, Sight, Tables, check_direction, check_point, unplaced};
 use crate::bounds::Bounds;
 use crate::place::Placement;
 use crate::scalar::{Number, Real, Scalar, Vector};
@@ -38,26 +38,23 @@ impl<S: Scalar> Polygon<S> {
         S::unit(normal)
     }
 
-    fn vertices<'a>(&self, points: &'a [S::Vec3]) -> &'a [S::Vec3] {
+    fn vertices<'a>(&self, tables: &Tables<'a, S>) -> &'a [S::Vec3] {
         let first = self.first as usize;
-        points.get(first..first.saturating_add(self.count as usize)).unwrap_or(&[])
+        tables.points.get(first..first.saturating_add(self.count as usize)).unwrap_or(&[])
     }
 }
 
 impl<S: Scalar> Primitive<S> for Polygon<S> {
-    const OPEN: bool = true;
-    const SPANS_MAX: u16 = 1;
-
     fn centre(&self) -> S::Vec3 {
         S::Vec3::ZERO
     }
 
-    fn check(&self, placed: bool, points: &[S::Vec3]) -> Result<(), Flaw> {
+    fn check(&self, placed: bool, tables: &Tables<'_, S>) -> Result<(), Flaw> {
         unplaced(placed, "vertices")?;
         if self.count < 3 {
             return Err(Flaw::Empty("vertices"));
         }
-        let vertices = self.vertices(points);
+        let vertices = self.vertices(tables);
         let Some(&first) = vertices.first() else {
             return Err(Flaw::Index("vertices"));
         };
@@ -83,8 +80,8 @@ impl<S: Scalar> Primitive<S> for Polygon<S> {
         if off <= size * share { Ok(()) } else { Err(Flaw::NotPlanar("vertices")) }
     }
 
-    fn bounds(&self, _: Option<&Placement<S>>, points: &[S::Vec3]) -> Bounds<S> {
-        Bounds::around(self.vertices(points))
+    fn bounds(&self, _: Option<&Placement<S>>, tables: &Tables<'_, S>) -> Bounds<S> {
+        Bounds::around(self.vertices(tables))
     }
 
     /// The plane gives t, between the depths of the vertices; edges that cross a half-line in
@@ -92,7 +89,7 @@ impl<S: Scalar> Primitive<S> for Polygon<S> {
     /// share belongs to one of them.
     #[inline]
     fn spans(&self, sight: &Sight<'_, S>, mut emit: impl FnMut(Span<S>)) {
-        let (line, vertices) = (sight.line, self.vertices(sight.points));
+        let (line, vertices) = (sight.line, self.vertices(sight.tables));
         let (Some(&first), Some(&last)) = (vertices.first(), vertices.last()) else {
             return;
         };
@@ -122,18 +119,18 @@ impl<S: Scalar> Primitive<S> for Polygon<S> {
         }
     }
 
-    fn snap(&self, local: S::WideVec, _: u16) -> S::Vec3 {
+    fn snap(&self, local: S::WideVec, _: u16, _: &Tables<'_, S>) -> S::Vec3 {
         S::narrow_vec(local)
     }
 
-    fn normal(&self, _: S::Vec3, _: u16, _: &[S::Vec3]) -> S::WideVec {
+    fn normal(&self, _: S::Vec3, _: u16, _: &Tables<'_, S>) -> S::WideVec {
         S::widen_dir(self.normal)
     }
 
     /// Distances from the first vertex along two axes in the plane.
-    fn uv(&self, local: S::Vec3, _: u16, points: &[S::Vec3]) -> [S; 2] {
+    fn uv(&self, local: S::Vec3, _: u16, tables: &Tables<'_, S>) -> [S; 2] {
         let (u, v) = S::widen_dir(self.normal).basis();
-        let first = self.vertices(points).first().copied().unwrap_or_default();
+        let first = self.vertices(tables).first().copied().unwrap_or_default();
         let from = S::widen_vec(local) - S::widen_vec(first);
         [u, v].map(|axis| S::narrow(from.dot(axis)))
     }

@@ -1,6 +1,6 @@
 //! The ball, and by placement the ellipsoid.
 
-use super::{Flaw, Primitive, Sight, check_centre, check_length, turn};
+use super::{Flaw, Primitive, Sight, Tables, check_centre, check_length, turn};
 use crate::bounds::Bounds;
 use crate::place::{Local, Placement};
 use crate::scalar::{Axis, Number, Real, Scalar, Vector};
@@ -16,19 +16,16 @@ pub struct Sphere<S: Scalar> {
 }
 
 impl<S: Scalar> Primitive<S> for Sphere<S> {
-    const OPEN: bool = false;
-    const SPANS_MAX: u16 = 1;
-
     fn centre(&self) -> S::Vec3 {
         self.center
     }
 
-    fn check(&self, placed: bool, _: &[S::Vec3]) -> Result<(), Flaw> {
+    fn check(&self, placed: bool, _: &Tables<'_, S>) -> Result<(), Flaw> {
         check_centre::<S>(self.center, placed)?;
         check_length(self.radius, "radius")
     }
 
-    fn bounds(&self, place: Option<&Placement<S>>, _: &[S::Vec3]) -> Bounds<S> {
+    fn bounds(&self, place: Option<&Placement<S>>, _: &Tables<'_, S>) -> Bounds<S> {
         match place {
             None => Bounds::about(self.center, S::Vec3::splat(self.radius)),
             Some(place) => {
@@ -64,17 +61,17 @@ impl<S: Scalar> Primitive<S> for Sphere<S> {
         }
     }
 
-    fn snap(&self, local: S::WideVec, _: u16) -> S::Vec3 {
+    fn snap(&self, local: S::WideVec, _: u16, _: &Tables<'_, S>) -> S::Vec3 {
         let snapped = S::narrow_vec(local.normalize() * self.radius.widen());
         if snapped == S::Vec3::ZERO { S::Vec3::ZERO.with(Axis::Y, self.radius) } else { snapped }
     }
 
-    fn normal(&self, local: S::Vec3, _: u16, _: &[S::Vec3]) -> S::WideVec {
+    fn normal(&self, local: S::Vec3, _: u16, _: &Tables<'_, S>) -> S::WideVec {
         S::widen_vec(local)
     }
 
     /// Longitude from −x through −z as u, latitude from the south pole (−y) as v, both in 0..=1.
-    fn uv(&self, local: S::Vec3, _: u16, _: &[S::Vec3]) -> [S; 2] {
+    fn uv(&self, local: S::Vec3, _: u16, _: &Tables<'_, S>) -> [S; 2] {
         let angle = (local.y().widen() / self.radius.widen()).acos();
         [turn(local.x(), local.z()), S::narrow(S::Wide::ONE - angle / S::Wide::PI)]
     }

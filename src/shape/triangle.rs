@@ -1,6 +1,6 @@
 //! The triangle, watertight along its edges.
 
-use super::{Flaw, Primitive, Sight, check_point, unplaced};
+use super::{Flaw, Primitive, Sight, Tables, check_point, unplaced};
 use crate::bounds::Bounds;
 use crate::place::Placement;
 use crate::ray::Line;
@@ -22,27 +22,27 @@ impl Triangle {
     /// No shading normals: the triangle looks as flat as it is.
     pub const FLAT: u32 = u32::MAX;
 
-    fn corners<S: Scalar>(&self, points: &[S::Vec3]) -> Option<[S::Vec3; 3]> {
-        let [a, b, c] = self.corners.map(|i| points.get(i as usize).copied());
+    fn corners<S: Scalar>(&self, tables: &Tables<'_, S>) -> Option<[S::Vec3; 3]> {
+        let [a, b, c] = self.corners.map(|i| tables.points.get(i as usize).copied());
         Some([a?, b?, c?])
     }
 
-    fn normals<S: Scalar>(&self, points: &[S::Vec3]) -> Option<[S::Vec3; 3]> {
+    fn normals<S: Scalar>(&self, tables: &Tables<'_, S>) -> Option<[S::Vec3; 3]> {
         let first = self.normals as usize;
-        match points.get(first..first.checked_add(3)?)? {
+        match tables.points.get(first..first.checked_add(3)?)? {
             &[a, b, c] => Some([a, b, c]),
             _ => None,
         }
     }
 
-    fn wide_corners<S: Scalar>(&self, points: &[S::Vec3]) -> Option<[S::WideVec; 3]> {
-        self.corners::<S>(points).map(|corners| corners.map(S::widen_vec))
+    fn wide_corners<S: Scalar>(&self, tables: &Tables<'_, S>) -> Option<[S::WideVec; 3]> {
+        self.corners::<S>(tables).map(|corners| corners.map(S::widen_vec))
     }
 
     /// The shares of the corners in a point of the triangle.
-    fn shares<S: Scalar>(&self, p: S::Vec3, points: &[S::Vec3]) -> [S::Wide; 3] {
+    fn shares<S: Scalar>(&self, p: S::Vec3, tables: &Tables<'_, S>) -> [S::Wide; 3] {
         let (zero, one) = (S::Wide::ZERO, S::Wide::ONE);
-        let Some([a, b, c]) = self.wide_corners::<S>(points) else {
+        let Some([a, b, c]) = self.wide_corners::<S>(tables) else {
             return [one, zero, zero];
         };
         let normal = (b - a).cross(c - a);
@@ -53,19 +53,6 @@ impl Triangle {
         let (u, v) = (u.clamp(zero, one), v.clamp(zero, one));
         let (u, v) = if u + v > one { (u / (u + v), v / (u + v)) } else { (u, v) };
         [one - u - v, u, v]
-    }
-
-    /// The normal that light sees at a point: that of the corners, by their shares, where the
-    /// triangle has them.
-    pub(crate) fn shading_normal<S: Scalar>(
-        &self,
-        p: S::Vec3,
-        points: &[S::Vec3],
-    ) -> Option<S::WideVec> {
-        let [na, nb, nc] = self.normals::<S>(points)?.map(S::widen_vec);
-        let [a, b, c] = self.shares::<S>(p, points);
-        let normal = na * a + nb * b + nc * c;
-        (normal != S::WideVec::ZERO).then_some(normal)
     }
 }
 
@@ -121,21 +108,18 @@ fn owns_edge<T: Real>([ay, by, cy]: [T; 3], [ab, bc, ca]: [T; 3]) -> bool {
 }
 
 impl<S: Scalar> Primitive<S> for Triangle {
-    const OPEN: bool = true;
-    const SPANS_MAX: u16 = 1;
-
     fn centre(&self) -> S::Vec3 {
         S::Vec3::ZERO
     }
 
-    fn check(&self, placed: bool, points: &[S::Vec3]) -> Result<(), Flaw> {
+    fn check(&self, placed: bool, tables: &Tables<'_, S>) -> Result<(), Flaw> {
         unplaced(placed, "corners")?;
-        let [a, b, c] = self.corners::<S>(points).ok_or(Flaw::Index("corners"))?;
+        let [a, b, c] = self.corners::<S>(tables).ok_or(Flaw::Index("corners"))?;
         for corner in [a, b, c] {
             check_point::<S>(corner, "corners")?;
         }
         if self.normals != Self::FLAT {
-            for normal in self.normals::<S>(points).ok_or(Flaw::Index("normals"))? {
+            for normal in self.normals::<S>(tables).ok_or(Flaw::Index("normals"))? {
                 check_point::<S>(normal, "normals")?;
             }
         }
@@ -144,8 +128,8 @@ impl<S: Scalar> Primitive<S> for Triangle {
         if normal.max_abs() > S::EPSILON.widen() { Ok(()) } else { Err(Flaw::Empty("corners")) }
     }
 
-    fn bounds(&self, _: Option<&Placement<S>>, points: &[S::Vec3]) -> Bounds<S> {
-        self.corners::<S>(points).map_or_else(Bounds::nothing, |corners| Bounds::around(&corners))
+    fn bounds(&self, _: Option<&Placement<S>>, tables: &Tables<'_, S>) -> Bounds<S> {
+        self.corners::<S>(tables).map_or_else(Bounds::nothing, |corners| Bounds::around(&corners))
     }
 
     /// Source: Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (2013); the edge
@@ -153,7 +137,7 @@ impl<S: Scalar> Primitive<S> for Triangle {
     /// two faces share belongs to one of them, by the rule of [`Polygon`](super::Polygon).
     #[inline]
     fn spans(&self, sight: &Sight<'_, S>, mut emit: impl FnMut(Span<S>)) {
-        let Some([a, b, c]) = self.wide_corners::<S>(sight.points) else {
+        let Some([a, b, c]) = self.wide_corners::<S>(sight.tables) else {
             return;
         };
         if sight.start.is_some() {
@@ -178,18 +162,26 @@ impl<S: Scalar> Primitive<S> for Triangle {
         emit(Span::touch(S::narrow((u * at + v * bt + w * ct) / sum)));
     }
 
-    fn snap(&self, local: S::WideVec, _: u16) -> S::Vec3 {
+    fn snap(&self, local: S::WideVec, _: u16, _: &Tables<'_, S>) -> S::Vec3 {
         S::narrow_vec(local)
     }
 
-    fn normal(&self, _: S::Vec3, _: u16, points: &[S::Vec3]) -> S::WideVec {
-        self.wide_corners::<S>(points)
+    fn normal(&self, _: S::Vec3, _: u16, tables: &Tables<'_, S>) -> S::WideVec {
+        self.wide_corners::<S>(tables)
             .map_or(S::WideVec::ZERO, |[a, b, c]| (b - a).normalize().cross((c - a).normalize()))
     }
 
+    /// That of the corners, by their shares, where the triangle has them.
+    fn shading_normal(&self, local: S::Vec3, _: u16, tables: &Tables<'_, S>) -> Option<S::WideVec> {
+        let [na, nb, nc] = self.normals::<S>(tables)?.map(S::widen_vec);
+        let [a, b, c] = self.shares::<S>(local, tables);
+        let normal = na * a + nb * b + nc * c;
+        (normal != S::WideVec::ZERO).then_some(normal)
+    }
+
     /// The shares of the second and the third corner.
-    fn uv(&self, local: S::Vec3, _: u16, points: &[S::Vec3]) -> [S; 2] {
-        let [_, u, v] = self.shares::<S>(local, points);
+    fn uv(&self, local: S::Vec3, _: u16, tables: &Tables<'_, S>) -> [S; 2] {
+        let [_, u, v] = self.shares::<S>(local, tables);
         [S::narrow(u), S::narrow(v)]
     }
 }

@@ -3,7 +3,7 @@
 #![allow(clippy::expect_used, clippy::panic, clippy::indexing_slicing, reason = "tests may panic")]
 
 use nostray::ray::{Line, Start};
-use nostray::shape::Sight;
+use nostray::shape::{Sight, Tables};
 use nostray::{
     Affine, Axis, Fixed, Form, Material, Node, Placement, Ray, Rgb, SceneBuilder, Shape, Vector,
 };
@@ -163,7 +163,7 @@ impl<S: Float> Subject<S> {
     pub fn span_from(&self, ray: Ray<S>, start: Option<Start<S>>) -> Option<[f64; 2]> {
         let line = Line::new(ray, start);
         let (place, start) = (self.place.as_ref(), line.start.as_ref());
-        let sight = Sight { line: &line, place, start, points: &[] };
+        let sight = Sight { line: &line, place, start, tables: &Tables::EMPTY };
         let mut found = None;
         self.shape.spans(&sight, |span| {
             assert!(found.is_none(), "a convex solid has one span");

@@ -5,8 +5,8 @@
     reason = "a measure of errors need not be the same to the bit"
 )]
 
-use nostray::Ray;
 use nostray::ray::Line;
+use nostray::{Ray, Tables};
 
 use super::subject::Subject;
 use super::{Float, Path, Real, Solid, array, length, ulp};
@@ -49,7 +49,7 @@ impl Row {
         let truth = exact.span(&path, &Real::from(0.0));
         self.hits += u32::from(truth.is_some());
         if found.is_some_and(|[_, exit]| exit > 0.0) {
-            let bounds = subject.shape.bounds(subject.place.as_ref(), &[]);
+            let bounds = subject.shape.bounds(subject.place.as_ref(), &Tables::EMPTY);
             assert!(bounds.meets(&Line::new(ray, None), S::FAR), "bounds lose {ray:?}");
         }
         match (found, &truth) {
