@@ -295,7 +295,7 @@ fn try_scene(seed: u64) -> bool {
         textures: &[],
         lights: &lights,
         placements: &placements,
-        tables: nostray::Tables { points: &points },
+        tables: nostray::Tables { points: &points, ..nostray::Tables::EMPTY },
         camera: Camera {
             eye: Vec3::new(random.number(), random.number(), 5.0),
             look_at: Vec3::ZERO,

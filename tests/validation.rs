@@ -97,7 +97,7 @@ impl Tables {
             textures: &self.textures,
             lights: &self.lights,
             placements: &self.placements,
-            tables: nostray::Tables { points: &self.points },
+            tables: nostray::Tables { points: &self.points, ..nostray::Tables::EMPTY },
             camera: self.camera,
             background: self.background,
             ambient: self.ambient,

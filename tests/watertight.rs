@@ -49,7 +49,7 @@ impl<S: Float> Mesh<S> {
     /// The t of every hit, before and behind the origin.
     fn hits(&self, ray: Ray<S>) -> Vec<f64> {
         let line = Line::new(ray, None);
-        let tables = Tables { points: &self.points };
+        let tables = Tables { points: &self.points, ..Tables::EMPTY };
         let sight = Sight { line: &line, place: None, start: None, tables: &tables };
         let mut hits = Vec::new();
         for face in &self.faces {

@@ -61,23 +61,29 @@ pub trait Storage {
     type Materials<T: Copy>: Store<T>;
     /// The table of vertices.
     type Points<T: Copy>: Store<T>;
+    /// The tables of numbers, of indices and of programs, for solids of many parts.
+    type Data<T: Copy>: Store<T>;
 }
 
 /// Tables of fixed size, without a heap: so many objects; nodes and placements; materials,
-/// textures and lights; vertices.
+/// textures and lights; vertices; numbers, indices and bytes of programs.
 #[derive(Clone, Copy, Debug)]
 pub struct Fixed<
     const OBJECTS: usize,
     const NODES: usize,
     const MATERIALS: usize,
     const POINTS: usize,
+    const DATA: usize = 0,
 >;
 
-impl<const O: usize, const N: usize, const M: usize, const P: usize> Storage for Fixed<O, N, M, P> {
+impl<const O: usize, const N: usize, const M: usize, const P: usize, const D: usize> Storage
+    for Fixed<O, N, M, P, D>
+{
     type Objects<T: Copy> = heapless::Vec<T, O>;
     type Nodes<T: Copy> = heapless::Vec<T, N>;
     type Materials<T: Copy> = heapless::Vec<T, M>;
     type Points<T: Copy> = heapless::Vec<T, P>;
+    type Data<T: Copy> = heapless::Vec<T, D>;
 }
 
 /// A scene that is put together piece by piece.
@@ -100,6 +106,9 @@ pub struct SceneBuilder<S: Scalar, M: Storage = Fixed<16, 64, 16, 64>> {
     textures: M::Materials<Texture<S>>,
     lights: M::Materials<Light<S>>,
     points: M::Points<S::Vec3>,
+    numbers: M::Data<S>,
+    indices: M::Data<u32>,
+    code: M::Data<u8>,
     open: heapless::Vec<u32, NESTING_MAX>,
     /// The entries of the tables that belong to finished objects.
     finished: Finished,
@@ -111,6 +120,9 @@ struct Finished {
     nodes: u32,
     placements: u32,
     points: u32,
+    numbers: u32,
+    indices: u32,
+    code: u32,
 }
 
 impl<S: Scalar, M: Storage> Default for SceneBuilder<S, M> {
@@ -160,6 +172,9 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
             textures: Default::default(),
             lights: Default::default(),
             points: Default::default(),
+            numbers: Default::default(),
+            indices: Default::default(),
+            code: Default::default(),
             open: heapless::Vec::new(),
             finished: Finished::default(),
         }
@@ -271,7 +286,12 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
             textures: self.textures.entries(),
             lights: self.lights.entries(),
             placements: self.placements.entries(),
-            tables: Tables { points: self.points.entries() },
+            tables: Tables {
+                points: self.points.entries(),
+                numbers: self.numbers.entries(),
+                indices: self.indices.entries(),
+                code: self.code.entries(),
+            },
             camera: self.camera,
             background: self.background,
             ambient: self.ambient,
@@ -298,6 +318,9 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
                     nodes: end,
                     placements: self.placements.entries().len() as u32,
                     points: self.points.entries().len() as u32,
+                    numbers: self.numbers.entries().len() as u32,
+                    indices: self.indices.entries().len() as u32,
+                    code: self.code.entries().len() as u32,
                 };
                 Ok(())
             }
@@ -327,6 +350,9 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
         self.nodes.truncate(self.finished.nodes as usize);
         self.placements.truncate(self.finished.placements as usize);
         self.points.truncate(self.finished.points as usize);
+        self.numbers.truncate(self.finished.numbers as usize);
+        self.indices.truncate(self.finished.indices as usize);
+        self.code.truncate(self.finished.code as usize);
         self.open.clear();
     }
 }

@@ -48,13 +48,19 @@ pub struct Sight<'a, S: Scalar> {
 /// What shapes refer to by index, because it has no fixed size.
 #[derive(Clone, Copy, Debug)]
 pub struct Tables<'a, S: Scalar> {
-    /// Vertices and normals.
+    /// Vertices, normals and control points.
     pub points: &'a [S::Vec3],
+    /// Strengths, coefficients and other numbers.
+    pub numbers: &'a [S],
+    /// Indices of points, and of other indices.
+    pub indices: &'a [u32],
+    /// Programs.
+    pub code: &'a [u8],
 }
 
 impl<S: Scalar> Tables<'_, S> {
     /// Nothing.
-    pub const EMPTY: Self = Self { points: &[] };
+    pub const EMPTY: Self = Self { points: &[], numbers: &[], indices: &[], code: &[] };
 }
 
 /// What is wrong with a shape's parameters.

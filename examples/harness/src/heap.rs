@@ -40,4 +40,5 @@ impl Storage for Heap {
     type Nodes<T: Copy> = Growable<T>;
     type Materials<T: Copy> = Growable<T>;
     type Points<T: Copy> = Growable<T>;
+    type Data<T: Copy> = Growable<T>;
 }
