@@ -5,32 +5,33 @@
 //! anywhere below it, the crate would not compile either.
 #![no_std]
 
+mod digest;
 mod picture;
 
 /// The digest of the picture in Q16.16; 0 if the scene is refused.
 #[unsafe(no_mangle)]
 pub extern "C" fn nostray_digest_q16() -> u64 {
-    picture::digest::<nostray::Q16>().unwrap_or(0)
+    digest::digest::<nostray::Q16>().unwrap_or(0)
 }
 
 /// The digest of the picture in Q32.32; 0 if the scene is refused.
 #[unsafe(no_mangle)]
 pub extern "C" fn nostray_digest_q32() -> u64 {
-    picture::digest::<nostray::Q32>().unwrap_or(0)
+    digest::digest::<nostray::Q32>().unwrap_or(0)
 }
 
 /// The digest of the picture in `f32`; 0 if the scene is refused.
 #[cfg(feature = "float")]
 #[unsafe(no_mangle)]
 pub extern "C" fn nostray_digest_f32() -> u64 {
-    picture::digest::<f32>().unwrap_or(0)
+    digest::digest::<f32>().unwrap_or(0)
 }
 
 /// The digest of the picture in `f64`; 0 if the scene is refused.
 #[cfg(feature = "float")]
 #[unsafe(no_mangle)]
 pub extern "C" fn nostray_digest_f64() -> u64 {
-    picture::digest::<f64>().unwrap_or(0)
+    digest::digest::<f64>().unwrap_or(0)
 }
 
 #[panic_handler]

@@ -1,5 +1,5 @@
-//! A picture with a bit of everything, and its digest; the same file is compiled for the
-//! bare program and for the test that compares the two.
+//! A picture with a bit of everything; the same file is compiled for the program that is linked
+//! into one in C, for the test that compares the two, and for the programs of `tests/targets`.
 
 use nostray::{
     Affine, Attenuation, Axis, Checker, Depth, Fixed, Form, Fresnel, Light, Mapping, Material,
@@ -8,23 +8,22 @@ use nostray::{
 
 type Builder<S> = SceneBuilder<S, Fixed<8, 16, 8, 8>>;
 
-const WIDTH: u32 = 48;
-const HEIGHT: u32 = 36;
+/// Width and height of the picture.
+pub(crate) const SIZE: [u32; 2] = [48, 36];
 
-/// FNV-1a (Fowler, Noll, Vo) over the bits of the light of every pixel.
-pub(crate) fn digest<S: Scalar>() -> Result<u64, SceneError> {
-    let builder = build::<S>()?;
+/// Traces the picture in some size and hands over the light of each pixel, row by row.
+pub(crate) fn trace<S: Scalar>(
+    [width, height]: [u32; 2],
+    mut sink: impl FnMut(Rgb<S>),
+) -> Result<(), SceneError> {
+    let mut builder = Builder::new();
+    build::<S>(&mut builder)?;
     let scene = builder.scene()?;
-    let render: Render<S, 7, 32> = Render::new(&scene, WIDTH, HEIGHT, Depth::fixed(6))?;
-    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    let render: Render<S, 7, 32> = Render::new(&scene, width, height, Depth::fixed(6))?;
     for pixel in render {
-        for part in pixel.color.to_array() {
-            for &byte in part.to_le_bytes().as_ref() {
-                hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-            }
-        }
+        sink(pixel.color);
     }
-    Ok(hash)
+    Ok(())
 }
 
 fn tenths<S: Scalar>(x: i32, y: i32, z: i32) -> S::Vec3 {
@@ -35,8 +34,7 @@ fn rgb<S: Scalar>(r: i32, g: i32, b: i32) -> Rgb<S> {
     Rgb::new(S::from_ratio(r, 10), S::from_ratio(g, 10), S::from_ratio(b, 10))
 }
 
-fn build<S: Scalar>() -> Result<Builder<S>, SceneError> {
-    let mut scene = Builder::<S>::new();
+fn build<S: Scalar>(scene: &mut Builder<S>) -> Result<(), SceneError> {
     scene.ambient = rgb(1, 1, 1);
     scene.camera.eye = tenths::<S>(0, 30, 70);
     let paints = [Paint::Solid(rgb(9, 9, 8)), Paint::Solid(rgb(1, 2, 2))];
@@ -57,7 +55,7 @@ fn build<S: Scalar>() -> Result<Builder<S>, SceneError> {
         absorb: rgb(4, 1, 3),
         ..Material::matte(Rgb::WHITE)
     })?;
-    light(&mut scene)?;
+    light(scene)?;
     let here = Affine::identity();
     let normal = tenths::<S>(0, 10, 0);
     scene.leaf(Form::Plane { normal, offset: S::from_ratio(-11, 10) }, &here, floor)?;
@@ -75,7 +73,7 @@ fn build<S: Scalar>() -> Result<Builder<S>, SceneError> {
     let base_radius = S::from_ratio(6, 10);
     let (base, top) = (tenths::<S>(4, -11, -8), tenths::<S>(6, 9, -8));
     scene.leaf(Form::Cone { base, base_radius, top, top_radius: S::ZERO }, &here, floor)?;
-    Ok(scene)
+    Ok(())
 }
 
 fn light<S: Scalar>(scene: &mut Builder<S>) -> Result<(), SceneError> {
