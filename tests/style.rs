@@ -17,6 +17,10 @@ const USIZE_HOLDERS: &[(&str, &str)] = &[
     ("Nest", "lives during one check of a solid; how many operators are open"),
 ];
 
+/// Programs that meet a kernel's C or a board's registers, which Rust cannot check.
+const MEETS_THE_MACHINE: &[&str] =
+    &["examples/kernel/src/lib.rs", "examples/firmware/src/bin/firmware.rs"];
+
 /// A source file and where it lies.
 struct Source {
     path: String,
@@ -116,7 +120,12 @@ fn a_file_has_one_subject() {
 #[test]
 fn there_is_no_unsafe_code() {
     let mut complaints = Vec::new();
+    let mut excused = 0;
     for source in sources(&["src", "examples"]) {
+        if MEETS_THE_MACHINE.contains(&source.path.as_str()) {
+            excused += 1;
+            continue;
+        }
         for (number, line) in source.lines() {
             let code = line.split("//").next().unwrap_or_default();
             let mut words = code.split(|c: char| !c.is_alphanumeric() && c != '_');
@@ -126,6 +135,7 @@ fn there_is_no_unsafe_code() {
         }
     }
     complain("no unsafe code", &complaints);
+    assert_eq!(excused, MEETS_THE_MACHINE.len(), "an excuse names a file that is there");
 }
 
 #[test]

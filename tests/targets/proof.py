@@ -60,7 +60,8 @@ class Image:
         here = None
         options = ["-d", "--no-show-raw-insn"]
         for line in text_of(llvm("llvm-objdump"), *options, str(path)).splitlines():
-            if head := re.fullmatch(r"[0-9a-f]+ <(.+)>:", line):
+            # Some compilers leave local labels in the midst of a function.
+            if head := re.fullmatch(r"[0-9a-f]+ <(?!\.L)(.+)>:", line):
                 here = self.functions.setdefault(head.group(1), [])
             elif here is not None and (code := re.match(r"\s*[0-9a-f]+:\s+(\S.*)", line)):
                 here.append(code.group(1))
