@@ -1,8 +1,9 @@
 //! Scenes put together at run time, in tables of fixed size.
 
+mod form;
 mod realise;
 
-pub use realise::Form;
+pub use form::Form;
 
 use super::check::check_object;
 use super::{Object, Parts, Scene};

@@ -4,6 +4,10 @@
 //! names are not looked up. A field that is not known is an error; one that may be left out
 //! says what stands for it.
 
+mod solid;
+
+pub use solid::{Move, Object, Solid};
+
 use serde::Deserialize;
 
 use crate::written::{Background, Factor, Paint, Several, Table, Triple, present};
@@ -211,124 +215,4 @@ pub enum Fresnel {
     Schlick,
     /// Fresnel's equations for unpolarised light.
     Exact,
-}
-
-/// A solid with its material and its place.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Object {
-    /// What it is.
-    pub solid: Solid,
-    /// The name of the material that fills it and covers what has none of its own; that of the
-    /// first part of the solid if left out.
-    #[serde(default, deserialize_with = "present")]
-    pub material: Option<String>,
-    /// Where it stands: moves, applied in order.
-    #[serde(default)]
-    pub place: Vec<Move>,
-}
-
-/// A solid.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Solid {
-    /// A ball.
-    Sphere {
-        /// The middle.
-        center: Triple,
-        /// The radius.
-        radius: f64,
-    },
-    /// The half-space `normal · p ≤ offset`.
-    Plane {
-        /// The outward normal, of any length but 0.
-        normal: Triple,
-        /// `normal · p` for a point of the plane.
-        offset: f64,
-    },
-    /// A box along the axes.
-    Box {
-        /// The least coordinates.
-        min: Triple,
-        /// The greatest coordinates.
-        max: Triple,
-    },
-    /// A cylinder between the middles of its caps.
-    Cylinder {
-        /// The middle of the lower cap.
-        base: Triple,
-        /// The middle of the upper cap.
-        top: Triple,
-        /// The radius.
-        radius: f64,
-    },
-    /// A cone or frustum between the middles of its caps.
-    Cone {
-        /// The middle of the lower cap.
-        base: Triple,
-        /// The radius of the lower cap.
-        base_radius: f64,
-        /// The middle of the upper cap.
-        top: Triple,
-        /// The radius of the upper cap.
-        top_radius: f64,
-    },
-    /// A triangle, an open surface.
-    Triangle {
-        /// The first corner; the three are counterclockwise from outside.
-        a: Triple,
-        /// The second corner.
-        b: Triple,
-        /// The third corner.
-        c: Triple,
-        /// The normals that light sees at the corners, if it is to look curved.
-        #[serde(default, deserialize_with = "present")]
-        normals: Option<Several<Triple, 3>>,
-    },
-    /// A plane polygon, an open surface: vertices counterclockwise from outside.
-    Polygon(Vec<Triple>),
-    /// In any of them.
-    Union(Vec<Self>),
-    /// In all of them.
-    Intersection(Vec<Self>),
-    /// In the first and in none of the others.
-    Difference(Vec<Self>),
-    /// In an odd number of them.
-    Xor(Vec<Self>),
-    /// Not in it.
-    Complement(Box<Self>),
-    /// A solid with its own material or place.
-    With {
-        /// The solid.
-        solid: Box<Self>,
-        /// The name of its material; the one around it if left out.
-        #[serde(default, deserialize_with = "present")]
-        material: Option<String>,
-        /// Where it stands: moves, applied in order and before those around it.
-        #[serde(default)]
-        place: Vec<Move>,
-    },
-}
-
-/// One step of a placement.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Move {
-    /// By a vector.
-    Translate(Triple),
-    /// By a factor, or by one along each axis.
-    Scale(Factor),
-    /// Right-handed about the x axis, in degrees.
-    RotateX(f64),
-    /// Right-handed about the y axis, in degrees.
-    RotateY(f64),
-    /// Right-handed about the z axis, in degrees.
-    RotateZ(f64),
-    /// Right-handed about any axis through the origin.
-    Rotate {
-        /// The axis, of any length but 0.
-        axis: Triple,
-        /// The angle in degrees.
-        degrees: f64,
-    },
 }

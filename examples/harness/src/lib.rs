@@ -4,6 +4,7 @@
 mod assemble;
 mod failure;
 mod flaw;
+mod forms;
 mod heap;
 mod locate;
 mod moves;

@@ -4,9 +4,9 @@ use std::collections::HashMap;
 
 use nostray::{Affine, Form, Operator, Scalar, SceneBuilder, SceneError, Vector};
 
-use crate::assemble::vector;
 use crate::document::{Object, Solid};
 use crate::flaw::{Flaw, Path};
+use crate::forms::Stock;
 use crate::heap::Heap;
 use crate::moves::{compose, converted};
 use crate::origin::Origins;
@@ -136,34 +136,8 @@ impl<'a, S: Scalar> Planter<'a, S> {
     }
 
     fn leaf(&mut self, leaf: &Solid, around: Around<'_>, path: &Path<'_>) -> Result<(), Flaw> {
-        let v = vector::<S>;
-        let s = S::from_f64;
-        let mut vertices = Vec::new();
-        let (name, form) = match *leaf {
-            Solid::Sphere { center, radius } => {
-                ("Sphere", Form::Sphere { center: v(center), radius: s(radius) })
-            }
-            Solid::Plane { normal, offset } => {
-                ("Plane", Form::Plane { normal: v(normal), offset: s(offset) })
-            }
-            Solid::Box { min, max } => ("Box", Form::Box { min: v(min), max: v(max) }),
-            Solid::Cylinder { base, top, radius } => {
-                ("Cylinder", Form::Cylinder { base: v(base), top: v(top), radius: s(radius) })
-            }
-            Solid::Cone { base, base_radius, top, top_radius } => {
-                let (base_radius, top_radius) = (s(base_radius), s(top_radius));
-                ("Cone", Form::Cone { base: v(base), base_radius, top: v(top), top_radius })
-            }
-            Solid::Triangle { a, b, c, normals } => {
-                let normals = normals.map(|normals| normals.0.map(v));
-                ("Triangle", Form::Triangle { corners: [a, b, c].map(v), normals })
-            }
-            Solid::Polygon(ref written) => {
-                vertices.extend(written.iter().map(|&vertex| v(vertex)));
-                ("Polygon", Form::Polygon { vertices: &vertices })
-            }
-            _ => return Err(Flaw::new(path, "is not a shape")),
-        };
+        let mut stock = Stock::default();
+        let (name, form) = stock.form(leaf, path)?;
         let path = path.field(name);
         let material = around.material.ok_or_else(|| Flaw::new(path, "has no material"))?;
         self.check_reach(&form, around.to_world, &path)?;
@@ -183,7 +157,7 @@ impl<'a, S: Scalar> Planter<'a, S> {
             Form::Sphere { center, .. } => center,
             Form::Box { min, .. } => min,
             Form::Cylinder { base, .. } | Form::Cone { base, .. } => base,
-            Form::Plane { .. } | Form::Triangle { .. } | Form::Polygon { .. } => S::Vec3::ZERO,
+            _ => S::Vec3::ZERO,
         };
         let point = <f64 as Scalar>::Vec3::from_array(point.to_array().map(S::to_f64));
         // What is not a number is left to the check of the shape itself.
