@@ -25,6 +25,8 @@ mod float;
 
 pub mod fixed_point;
 mod math;
+#[allow(dead_code, reason = "solids of a higher degree use one basis or the other")]
+mod roots;
 
 pub mod ray;
 
