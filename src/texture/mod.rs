@@ -4,7 +4,9 @@
 //! mixes paints, which may be textures again; it may only name textures before itself, so
 //! there are no cycles and the work is bounded.
 
+pub mod cells;
 mod checker;
+pub mod noise;
 
 pub use checker::{Checker, Mapping};
 
