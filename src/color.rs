@@ -1,5 +1,9 @@
 //! Linear colour, and the bytes that a display wants.
 
+mod dither;
+
+pub use dither::{Dither, luma};
+
 use core::ops::{Add, AddAssign, Mul};
 
 use crate::scalar::Scalar;

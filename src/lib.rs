@@ -16,6 +16,7 @@
 //! | [`error`], [`stats`] | what can be wrong with a scene; what was done |
 //! | [`scene`] | tables of all this, borrowed and checked; nearest hit and shadows |
 //! | [`render`] | the picture, ray by ray, on a bounded stack |
+//! | `display` | a picture on a display, with the feature `embedded-graphics` |
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -62,10 +63,13 @@ mod shade;
 
 pub mod render;
 
+#[cfg(feature = "embedded-graphics")]
+pub mod display;
+
 pub use background::Background;
 pub use bounds::Bounds;
 pub use camera::{Camera, Projection};
-pub use color::{Rgb, Transfer};
+pub use color::{Dither, Rgb, Transfer};
 pub use error::{Item, SceneError};
 pub use fixed;
 pub use fixed_point::{Q16, Q32};
