@@ -29,7 +29,7 @@ pub struct Start<S: Scalar> {
     /// The leaf, as an index into the scene's nodes.
     pub node: u32,
     /// Which of its faces.
-    pub face: u16,
+    pub face: u32,
     /// The ray goes to the inner side of the leaf.
     pub inward: bool,
     /// The origin in the leaf's own coordinates, on the surface.

@@ -17,7 +17,7 @@ pub(crate) struct Surface<'a, S: Scalar> {
     color: Rgb<S>,
     contact: Contact<S>,
     node: u32,
-    face: u16,
+    face: u32,
     passage: Passage,
     /// The viewer is on the inner side of the leaf.
     from_within: bool,

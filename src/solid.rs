@@ -136,7 +136,7 @@ impl<'a, S: Scalar> Geometry<'a, S> {
         line: &Line<S>,
         leaf: &Leaf<S>,
         local: S::Vec3,
-        face: u16,
+        face: u32,
     ) -> [S::Wide; 2] {
         let magnitude = |v: S::WideVec| v.map(Number::abs);
         let rounding = |v: S::WideVec| magnitude(v).map(S::rounding);

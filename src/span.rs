@@ -8,7 +8,7 @@ pub struct End<S> {
     /// The parameter on the ray.
     pub t: S,
     /// The face of the leaf.
-    pub face: u16,
+    pub face: u32,
 }
 
 /// What lies inside a leaf along a ray: from `enter` up to, not including, `exit`. An open
@@ -30,7 +30,7 @@ impl<S: Real> Span<S> {
 
     /// An interval between two ends on one face.
     #[inline]
-    pub(crate) fn of_face(face: u16, enter: S, exit: S) -> Self {
+    pub(crate) fn of_face(face: u32, enter: S, exit: S) -> Self {
         Self { enter: End { t: enter, face }, exit: End { t: exit, face } }
     }
 
@@ -99,7 +99,7 @@ pub struct Boundary<S> {
     /// The leaf whose surface this is, as an index into the scene's nodes.
     pub node: u32,
     /// Which face of that leaf.
-    pub face: u16,
+    pub face: u32,
     /// Into the solid or out of it.
     pub passage: Passage,
     /// The solid lies on the other side than the leaf does: a cut face, whose normal is the

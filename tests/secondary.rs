@@ -70,14 +70,14 @@ fn subject<S: Float>(body: Body, random: &mut Random) -> Subject<S> {
 
 /// A point of a surface.
 struct Contact<S: Float> {
-    face: u16,
+    face: u32,
     local: S::Vec3,
     position: S::Vec3,
     normal: S::Vec3,
 }
 
 impl<S: Float> Contact<S> {
-    fn at(subject: &Subject<S>, near: S::Vec3, face: u16) -> Self {
+    fn at(subject: &Subject<S>, near: S::Vec3, face: u32) -> Self {
         let local = subject.shape.snap(near, face, &Tables::EMPTY);
         let normal = subject.shape.normal(local, face, &Tables::EMPTY);
         let (position, normal) = match &subject.place {
@@ -127,7 +127,7 @@ impl<S: Float> Contact<S> {
                 let half = array::<S>((cuboid.max - cuboid.min) * S::HALF);
                 let middle = array::<S>((cuboid.max + cuboid.min) * S::HALF);
                 let offset = half.map(|h| edge(random, h));
-                (random.below(6) as u16, along(middle, 1.0, offset))
+                (random.below(6) as u32, along(middle, 1.0, offset))
             }
             Shape::Cylinder(_) | Shape::Cone(_) => {
                 let (half, radius) = match subject.shape {
@@ -137,8 +137,8 @@ impl<S: Float> Contact<S> {
                     }
                     _ => unreachable!(),
                 };
-                let face = random.below(3) as u16;
-                let face = if face > 0 && radius[usize::from(face) - 1] == 0.0 { 0 } else { face };
+                let face = random.below(3) as u32;
+                let face = if face > 0 && radius[face as usize - 1] == 0.0 { 0 } else { face };
                 let across = edge(random, radius[0].max(radius[1]));
                 let [x, _, z] = random.direction();
                 let size = x.hypot(z);

@@ -335,7 +335,7 @@ impl<'a, S: Scalar> Scene<'a, S> {
         &self,
         leaf: &Leaf<S>,
         contact: &Contact<S>,
-        face: u16,
+        face: u32,
         normal: S::Dir,
     ) -> S::Dir {
         let Some(shading) = leaf.shape.shading_normal(contact.local, face, &self.parts.tables)

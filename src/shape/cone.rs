@@ -176,7 +176,7 @@ impl<S: Scalar> Primitive<S> for Cone<S> {
         emit_common(&ray, side, &caps, emit);
     }
 
-    fn snap(&self, local: S::WideVec, face: u16, _: &Tables<'_, S>) -> S::Vec3 {
+    fn snap(&self, local: S::WideVec, face: u32, _: &Tables<'_, S>) -> S::Vec3 {
         let half_height = self.half_height.widen();
         let radius = match face {
             SIDE => self.radius_at(local.y().clamp(-half_height, half_height)),
@@ -186,7 +186,7 @@ impl<S: Scalar> Primitive<S> for Cone<S> {
         snap_tube::<S>(local, face, self.half_height, radius.max(S::Wide::ZERO))
     }
 
-    fn normal(&self, local: S::Vec3, face: u16, _: &Tables<'_, S>) -> S::WideVec {
+    fn normal(&self, local: S::Vec3, face: u32, _: &Tables<'_, S>) -> S::WideVec {
         match face {
             SIDE => {
                 let Slant { rise, growth, .. } = self.slant();
@@ -206,7 +206,7 @@ impl<S: Scalar> Primitive<S> for Cone<S> {
     }
 
     /// As a cylinder of the greater radius.
-    fn uv(&self, local: S::Vec3, face: u16, _: &Tables<'_, S>) -> [S; 2] {
+    fn uv(&self, local: S::Vec3, face: u32, _: &Tables<'_, S>) -> [S; 2] {
         tube_uv(local, face, self.half_height, self.radius_max())
     }
 }

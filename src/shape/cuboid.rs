@@ -20,7 +20,7 @@ pub struct Cuboid<S: Scalar> {
 
 /// The axis of a face, and whether it is the upper one.
 #[inline]
-fn of_face(face: u16) -> (Axis, bool) {
+fn of_face(face: u32) -> (Axis, bool) {
     let axis = match face / 2 {
         0 => Axis::X,
         1 => Axis::Y,
@@ -31,7 +31,7 @@ fn of_face(face: u16) -> (Axis, bool) {
 
 impl<S: Scalar> Cuboid<S> {
     #[inline]
-    fn side(&self, face: u16) -> (Axis, S) {
+    fn side(&self, face: u32) -> (Axis, S) {
         let (axis, upper) = of_face(face);
         (axis, if upper { self.max.get(axis) } else { self.min.get(axis) })
     }
@@ -110,7 +110,7 @@ impl<S: Scalar> Cuboid<S> {
 
     /// The span of a ray from a face to its inner side: it ends at the nearest side ahead,
     /// and is never empty.
-    fn exit(&self, origin: S::Vec3, dir: S::WideVec, face: u16) -> Span<S> {
+    fn exit(&self, origin: S::Vec3, dir: S::WideVec, face: u32) -> Span<S> {
         let mut exit = End { t: S::Wide::FAR, face };
         for axis in Axis::ALL {
             let (low_face, high_face) = faces(axis);
@@ -132,7 +132,7 @@ impl<S: Scalar> Cuboid<S> {
 
 /// The lower and the upper face of an axis.
 #[inline]
-const fn faces(axis: Axis) -> (u16, u16) {
+const fn faces(axis: Axis) -> (u32, u32) {
     match axis {
         Axis::X => (0, 1),
         Axis::Y => (2, 3),
@@ -206,18 +206,18 @@ impl<S: Scalar> Primitive<S> for Cuboid<S> {
         }
     }
 
-    fn snap(&self, local: S::WideVec, face: u16, _: &Tables<'_, S>) -> S::Vec3 {
+    fn snap(&self, local: S::WideVec, face: u32, _: &Tables<'_, S>) -> S::Vec3 {
         let (axis, side) = self.side(face);
         S::narrow_vec(local).zip(self.min, S::max).zip(self.max, S::min).with(axis, side)
     }
 
-    fn normal(&self, _: S::Vec3, face: u16, _: &Tables<'_, S>) -> S::WideVec {
+    fn normal(&self, _: S::Vec3, face: u32, _: &Tables<'_, S>) -> S::WideVec {
         let (axis, upper) = of_face(face);
         S::WideVec::ZERO.with(axis, if upper { S::Wide::ONE } else { -S::Wide::ONE })
     }
 
     /// The place on the face along the two axes after its own, each in 0..=1.
-    fn uv(&self, local: S::Vec3, face: u16, _: &Tables<'_, S>) -> [S; 2] {
+    fn uv(&self, local: S::Vec3, face: u32, _: &Tables<'_, S>) -> [S; 2] {
         let (u, v) = (of_face(face).0.next(), of_face(face).0.next().next());
         [u, v].map(|axis| {
             let (min, max) = (self.min.get(axis), self.max.get(axis));

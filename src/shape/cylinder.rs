@@ -7,11 +7,11 @@ use crate::scalar::{Axis, Number, Real, Scalar, Vector};
 use crate::span::{End, Span};
 
 /// The side face of a cylinder or cone.
-pub(super) const SIDE: u16 = 0;
+pub(super) const SIDE: u32 = 0;
 /// The cap at the lower end of the axis.
-pub(super) const BASE: u16 = 1;
+pub(super) const BASE: u32 = 1;
 /// The cap at the upper end of the axis.
-pub(super) const TOP: u16 = 2;
+pub(super) const TOP: u32 = 2;
 
 /// A cylinder about the local y axis, closed by caps. Faces: 0 the side, 1 the base (−y), 2 the top.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,11 +83,11 @@ impl<S: Scalar> Primitive<S> for Cylinder<S> {
         emit_common(&ray, side, &caps, emit);
     }
 
-    fn snap(&self, local: S::WideVec, face: u16, _: &Tables<'_, S>) -> S::Vec3 {
+    fn snap(&self, local: S::WideVec, face: u32, _: &Tables<'_, S>) -> S::Vec3 {
         snap_tube::<S>(local, face, self.half_height, self.radius.widen())
     }
 
-    fn normal(&self, local: S::Vec3, face: u16, _: &Tables<'_, S>) -> S::WideVec {
+    fn normal(&self, local: S::Vec3, face: u32, _: &Tables<'_, S>) -> S::WideVec {
         match face {
             SIDE => S::widen_vec(local.with(Axis::Y, S::ZERO)),
             BASE => S::WideVec::ZERO.with(Axis::Y, -S::Wide::ONE),
@@ -96,7 +96,7 @@ impl<S: Scalar> Primitive<S> for Cylinder<S> {
     }
 
     /// The side: the angle as u, the height as v, both in 0..=1. A cap: its square in 0..=1.
-    fn uv(&self, local: S::Vec3, face: u16, _: &Tables<'_, S>) -> [S; 2] {
+    fn uv(&self, local: S::Vec3, face: u32, _: &Tables<'_, S>) -> [S; 2] {
         tube_uv(local, face, self.half_height, self.radius)
     }
 }
@@ -124,12 +124,12 @@ fn other_root<S: Scalar>(ray: &Local<S>) -> S::Wide {
 pub(super) fn tube_exit<S: Scalar>(
     ray: &Local<S>,
     half_height: S,
-    face: u16,
+    face: u32,
     side: Option<S::Wide>,
 ) -> Span<S> {
     let (y, dy, half_height) = (ray.origin.y(), ray.dir.y(), half_height.widen());
     let mut exit = End { t: side.unwrap_or(S::Wide::ZERO), face: SIDE };
-    let mut offer = |t: S::Wide, face: u16| {
+    let mut offer = |t: S::Wide, face: u32| {
         if t < exit.t {
             exit = End { t, face };
         }
@@ -195,7 +195,7 @@ pub(super) fn tube_bounds<S: Scalar>(
 /// The point of the side at this height and angle, or of a cap at this place.
 pub(super) fn snap_tube<S: Scalar>(
     local: S::WideVec,
-    face: u16,
+    face: u32,
     half_height: S,
     radius: S::Wide,
 ) -> S::Vec3 {
@@ -219,7 +219,7 @@ pub(super) fn snap_tube<S: Scalar>(
 }
 
 /// Texture coordinates of a round body along the local y axis.
-pub(super) fn tube_uv<S: Scalar>(local: S::Vec3, face: u16, half_height: S, radius: S) -> [S; 2] {
+pub(super) fn tube_uv<S: Scalar>(local: S::Vec3, face: u32, half_height: S, radius: S) -> [S; 2] {
     if face == SIDE {
         let v = share(local.y(), half_height);
         [turn(local.x(), local.z()), v]

@@ -105,16 +105,16 @@ pub trait Primitive<S: Scalar> {
     /// A component of the direction whose reciprocal is infinite counts as 0.
     fn spans(&self, sight: &Sight<'_, S>, emit: impl FnMut(Span<S>));
     /// The point of a face nearest to a local point close to it.
-    fn snap(&self, local: S::WideVec, face: u16, tables: &Tables<'_, S>) -> S::Vec3;
+    fn snap(&self, local: S::WideVec, face: u32, tables: &Tables<'_, S>) -> S::Vec3;
     /// The outward normal at a local point of a face, not of unit length; never zero.
-    fn normal(&self, local: S::Vec3, face: u16, tables: &Tables<'_, S>) -> S::WideVec;
+    fn normal(&self, local: S::Vec3, face: u32, tables: &Tables<'_, S>) -> S::WideVec;
     /// The outward normal that light sees at a local point of a face, where it is not the true one;
     /// not of unit length.
-    fn shading_normal(&self, _: S::Vec3, _: u16, _: &Tables<'_, S>) -> Option<S::WideVec> {
+    fn shading_normal(&self, _: S::Vec3, _: u32, _: &Tables<'_, S>) -> Option<S::WideVec> {
         None
     }
     /// The texture coordinates of a local point of a face.
-    fn uv(&self, local: S::Vec3, face: u16, tables: &Tables<'_, S>) -> [S; 2];
+    fn uv(&self, local: S::Vec3, face: u32, tables: &Tables<'_, S>) -> [S; 2];
 }
 
 /// Any of the solids.
@@ -200,13 +200,13 @@ impl<S: Scalar> Shape<S> {
 
     /// The point of a face nearest to a local point close to it.
     #[inline]
-    pub fn snap(&self, local: S::WideVec, face: u16, tables: &Tables<'_, S>) -> S::Vec3 {
+    pub fn snap(&self, local: S::WideVec, face: u32, tables: &Tables<'_, S>) -> S::Vec3 {
         each!(self, shape => Primitive::<S>::snap(shape, local, face, tables))
     }
 
     /// The outward normal at a local point of a face, not of unit length.
     #[inline]
-    pub fn normal(&self, local: S::Vec3, face: u16, tables: &Tables<'_, S>) -> S::WideVec {
+    pub fn normal(&self, local: S::Vec3, face: u32, tables: &Tables<'_, S>) -> S::WideVec {
         each!(self, shape => Primitive::<S>::normal(shape, local, face, tables))
     }
 
@@ -216,14 +216,14 @@ impl<S: Scalar> Shape<S> {
     pub fn shading_normal(
         &self,
         local: S::Vec3,
-        face: u16,
+        face: u32,
         tables: &Tables<'_, S>,
     ) -> Option<S::WideVec> {
         each!(self, shape => Primitive::<S>::shading_normal(shape, local, face, tables))
     }
 
     /// The texture coordinates of a local point of a face.
-    pub fn uv(&self, local: S::Vec3, face: u16, tables: &Tables<'_, S>) -> [S; 2] {
+    pub fn uv(&self, local: S::Vec3, face: u32, tables: &Tables<'_, S>) -> [S; 2] {
         each!(self, shape => Primitive::<S>::uv(shape, local, face, tables))
     }
 }

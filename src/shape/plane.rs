@@ -103,7 +103,7 @@ impl<S: Scalar> Primitive<S> for Plane<S> {
         emit(span);
     }
 
-    fn snap(&self, local: S::WideVec, _: u16, _: &Tables<'_, S>) -> S::Vec3 {
+    fn snap(&self, local: S::WideVec, _: u32, _: &Tables<'_, S>) -> S::Vec3 {
         match self.axis() {
             Some(axis) => S::narrow_vec(local).with(axis, self.level(axis)),
             None => {
@@ -114,13 +114,13 @@ impl<S: Scalar> Primitive<S> for Plane<S> {
         }
     }
 
-    fn normal(&self, _: S::Vec3, _: u16, _: &Tables<'_, S>) -> S::WideVec {
+    fn normal(&self, _: S::Vec3, _: u32, _: &Tables<'_, S>) -> S::WideVec {
         S::widen_dir(self.normal)
     }
 
     /// Distances from the scene's origin along the two axes in the plane that
     /// [`Vector::basis`] gives.
-    fn uv(&self, local: S::Vec3, _: u16, _: &Tables<'_, S>) -> [S; 2] {
+    fn uv(&self, local: S::Vec3, _: u32, _: &Tables<'_, S>) -> [S; 2] {
         let (u, v) = S::widen_dir(self.normal).normalize().basis();
         [u, v].map(|axis| S::narrow(S::widen_vec(local).dot(axis)))
     }

@@ -119,16 +119,16 @@ impl<S: Scalar> Primitive<S> for Polygon<S> {
         }
     }
 
-    fn snap(&self, local: S::WideVec, _: u16, _: &Tables<'_, S>) -> S::Vec3 {
+    fn snap(&self, local: S::WideVec, _: u32, _: &Tables<'_, S>) -> S::Vec3 {
         S::narrow_vec(local)
     }
 
-    fn normal(&self, _: S::Vec3, _: u16, _: &Tables<'_, S>) -> S::WideVec {
+    fn normal(&self, _: S::Vec3, _: u32, _: &Tables<'_, S>) -> S::WideVec {
         S::widen_dir(self.normal)
     }
 
     /// Distances from the first vertex along two axes in the plane.
-    fn uv(&self, local: S::Vec3, _: u16, tables: &Tables<'_, S>) -> [S; 2] {
+    fn uv(&self, local: S::Vec3, _: u32, tables: &Tables<'_, S>) -> [S; 2] {
         let (u, v) = S::widen_dir(self.normal).basis();
         let first = self.vertices(tables).first().copied().unwrap_or_default();
         let from = S::widen_vec(local) - S::widen_vec(first);

@@ -61,17 +61,17 @@ impl<S: Scalar> Primitive<S> for Sphere<S> {
         }
     }
 
-    fn snap(&self, local: S::WideVec, _: u16, _: &Tables<'_, S>) -> S::Vec3 {
+    fn snap(&self, local: S::WideVec, _: u32, _: &Tables<'_, S>) -> S::Vec3 {
         let snapped = S::narrow_vec(local.normalize() * self.radius.widen());
         if snapped == S::Vec3::ZERO { S::Vec3::ZERO.with(Axis::Y, self.radius) } else { snapped }
     }
 
-    fn normal(&self, local: S::Vec3, _: u16, _: &Tables<'_, S>) -> S::WideVec {
+    fn normal(&self, local: S::Vec3, _: u32, _: &Tables<'_, S>) -> S::WideVec {
         S::widen_vec(local)
     }
 
     /// Longitude from −x through −z as u, latitude from the south pole (−y) as v, both in 0..=1.
-    fn uv(&self, local: S::Vec3, _: u16, _: &Tables<'_, S>) -> [S; 2] {
+    fn uv(&self, local: S::Vec3, _: u32, _: &Tables<'_, S>) -> [S; 2] {
         let angle = (local.y().widen() / self.radius.widen()).acos();
         [turn(local.x(), local.z()), S::narrow(S::Wide::ONE - angle / S::Wide::PI)]
     }

@@ -162,17 +162,17 @@ impl<S: Scalar> Primitive<S> for Triangle {
         emit(Span::touch(S::narrow((u * at + v * bt + w * ct) / sum)));
     }
 
-    fn snap(&self, local: S::WideVec, _: u16, _: &Tables<'_, S>) -> S::Vec3 {
+    fn snap(&self, local: S::WideVec, _: u32, _: &Tables<'_, S>) -> S::Vec3 {
         S::narrow_vec(local)
     }
 
-    fn normal(&self, _: S::Vec3, _: u16, tables: &Tables<'_, S>) -> S::WideVec {
+    fn normal(&self, _: S::Vec3, _: u32, tables: &Tables<'_, S>) -> S::WideVec {
         self.wide_corners::<S>(tables)
             .map_or(S::WideVec::ZERO, |[a, b, c]| (b - a).normalize().cross((c - a).normalize()))
     }
 
     /// That of the corners, by their shares, where the triangle has them.
-    fn shading_normal(&self, local: S::Vec3, _: u16, tables: &Tables<'_, S>) -> Option<S::WideVec> {
+    fn shading_normal(&self, local: S::Vec3, _: u32, tables: &Tables<'_, S>) -> Option<S::WideVec> {
         let [na, nb, nc] = self.normals::<S>(tables)?.map(S::widen_vec);
         let [a, b, c] = self.shares::<S>(local, tables);
         let normal = na * a + nb * b + nc * c;
@@ -180,7 +180,7 @@ impl<S: Scalar> Primitive<S> for Triangle {
     }
 
     /// The shares of the second and the third corner.
-    fn uv(&self, local: S::Vec3, _: u16, tables: &Tables<'_, S>) -> [S; 2] {
+    fn uv(&self, local: S::Vec3, _: u32, tables: &Tables<'_, S>) -> [S; 2] {
         let [_, u, v] = self.shares::<S>(local, tables);
         [S::narrow(u), S::narrow(v)]
     }
