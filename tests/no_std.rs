@@ -17,8 +17,8 @@ use nostray::{Q16, Q32, Scalar};
 
 #[path = "no_std/src/digest.rs"]
 mod digest;
-#[path = "no_std/src/picture.rs"]
-mod picture;
+#[path = "no_std/src/pictures/mod.rs"]
+mod pictures;
 
 /// Runs a tool to its end; panics with what it said where it is missing or fails.
 fn run(what: &str, command: &mut Command) -> Output {
@@ -69,7 +69,7 @@ fn digests(program: &Path) -> Vec<String> {
 
 /// The digest that this test itself computes.
 fn hosted<S: Scalar>() -> String {
-    format!("{:016x}", digest::digest::<S>().expect("the scene is legal"))
+    format!("{:016x}", digest::digest::<S>().expect("the scenes are legal"))
 }
 
 /// The symbols of a program that stand for a panic, text formatting or an allocation.

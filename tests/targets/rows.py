@@ -20,6 +20,7 @@ class Row:
     formats: tuple = ALL
     debug: bool = True
     differs: tuple = ()  # formats that cannot have the same bits
+    basics: bool = False  # only the first picture
 
 
 def cortex(name, target, board, machine, ram="0x20000000", ram_size="256K", flash="0",
@@ -53,7 +54,8 @@ ROWS = [
     host("host-os", "opt-level s", profile="small"),
     host("host-native", "every instruction of this processor", flags="-Ctarget-cpu=native"),
     cortex("microbit", "thumbv6m-none-eabi", "microbit", "Cortex-M0, 16 KB RAM, opt-level s",
-           ram_size="16K", flash_size="256K", profile="small", formats=("f32", "q16"), debug=False),
+           ram_size="16K", flash_size="256K", profile="small", formats=("f32", "q16"), debug=False,
+           basics=True),
     cortex("m0", "thumbv6m-none-eabi", "mps2-an385", "code for Cortex-M0, on a Cortex-M3"),
     cortex("m3", "thumbv7m-none-eabi", "mps2-an385", "Cortex-M3"),
     cortex("m4f", "thumbv7em-none-eabihf", "mps2-an386", "Cortex-M4F, FPU of single precision"),

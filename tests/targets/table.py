@@ -44,8 +44,8 @@ def readme(results):
 
 def full(results):
     lines = ["# The same bits on every target", "",
-             "What `tests/targets/run --write` measured. Every program computes the picture of",
-             "`tests/no_std/src/picture.rs`; flash, RAM (variables), stack (measured / bound) are in bytes.", "",
+             "What `tests/targets/run --write` measured. Every program computes the pictures of",
+             "`tests/no_std/src/pictures` (the microbit only the first); flash, RAM (variables), stack (measured / bound) are in bytes.", "",
              "| row | target | format | bytes | light | instructions a pixel | flash | RAM | stack |",
              "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
     for result in results:

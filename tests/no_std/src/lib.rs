@@ -1,4 +1,4 @@
-//! The digests of a small picture, for a caller in C.
+//! The digests of small pictures, for a caller in C.
 //!
 //! The panic handler is this crate's own: with `std` anywhere below it, it would be the
 //! second one, and the crate would not compile. There is no global allocator: with `alloc`
@@ -6,28 +6,28 @@
 #![no_std]
 
 mod digest;
-mod picture;
+mod pictures;
 
-/// The digest of the picture in Q16.16; 0 if the scene is refused.
+/// The digest of the pictures in Q16.16; 0 if a scene is refused.
 #[unsafe(no_mangle)]
 pub extern "C" fn nostray_digest_q16() -> u64 {
     digest::digest::<nostray::Q16>().unwrap_or(0)
 }
 
-/// The digest of the picture in Q32.32; 0 if the scene is refused.
+/// The digest of the pictures in Q32.32; 0 if a scene is refused.
 #[unsafe(no_mangle)]
 pub extern "C" fn nostray_digest_q32() -> u64 {
     digest::digest::<nostray::Q32>().unwrap_or(0)
 }
 
-/// The digest of the picture in `f32`; 0 if the scene is refused.
+/// The digest of the pictures in `f32`; 0 if a scene is refused.
 #[cfg(feature = "float")]
 #[unsafe(no_mangle)]
 pub extern "C" fn nostray_digest_f32() -> u64 {
     digest::digest::<f32>().unwrap_or(0)
 }
 
-/// The digest of the picture in `f64`; 0 if the scene is refused.
+/// The digest of the pictures in `f64`; 0 if a scene is refused.
 #[cfg(feature = "float")]
 #[unsafe(no_mangle)]
 pub extern "C" fn nostray_digest_f64() -> u64 {

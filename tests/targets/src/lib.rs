@@ -1,22 +1,22 @@
-//! The picture that every target must compute to the same bits, as digests.
+//! The pictures that every target must compute to the same bits, as digests.
 #![no_std]
 #![allow(unsafe_code, reason = "marks that an emulator looks for have names of their own")]
 
-#[path = "../../no_std/src/picture.rs"]
-mod picture;
+#[path = "../../no_std/src/pictures/mod.rs"]
+mod pictures;
 mod scalars;
 #[cfg(target_arch = "wasm32")]
 mod wasm;
 
-use nostray::{Scalar, SceneError, Transfer};
+use nostray::{Rgb, Scalar, SceneError, Transfer};
 use sha2::{Digest, Sha256};
 
 pub use scalars::each_scalar;
 
 /// Slow builds trace fewer pixels.
-const SIZE: [u32; 2] = if cfg!(feature = "sketch") { [24, 18] } else { picture::SIZE };
+const SHRINK: u32 = if cfg!(feature = "sketch") { 2 } else { 1 };
 
-/// SHA-256 of a picture: of its bytes in sRGB, and of the bits of its light, least significant
+/// SHA-256 of all pictures: of their bytes in sRGB, and of the bits of their light, least significant
 /// byte first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Digests {
@@ -28,14 +28,14 @@ pub struct Digests {
     pub pixels: u32,
 }
 
-/// Computes the picture. Only the tracing lies between [`tracing_begins`] and [`tracing_ends`].
+/// Computes the pictures. Only the tracing lies between [`tracing_begins`] and [`tracing_ends`].
 ///
 /// # Errors
-/// If the scene is refused.
+/// If a scene is refused.
 pub fn digests<S: Scalar>() -> Result<Digests, SceneError> {
     let (mut rgb8, mut light, mut pixels) = (Sha256::new(), Sha256::new(), 0);
     tracing_begins();
-    picture::trace::<S>(SIZE, |color| {
+    let mut sink = |color: Rgb<S>| {
         tracing_ends();
         rgb8.update(color.to_rgb8(Transfer::Srgb));
         for part in color.to_array() {
@@ -43,7 +43,12 @@ pub fn digests<S: Scalar>() -> Result<Digests, SceneError> {
         }
         pixels += 1;
         tracing_begins();
-    })?;
+    };
+    if cfg!(feature = "basics") {
+        pictures::trace_basics(SHRINK, &mut sink)?;
+    } else {
+        pictures::trace(SHRINK, &mut sink)?;
+    }
     tracing_ends();
     Ok(Digests { rgb8: rgb8.finalize().into(), light: light.finalize().into(), pixels })
 }

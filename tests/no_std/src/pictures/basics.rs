@@ -1,37 +1,25 @@
-//! A picture with a bit of everything; the same file is compiled for the program that is linked
-//! into one in C, for the test that compares the two, and for the programs of `tests/targets`.
+//! Every kind of light, surface and operator in one picture.
 
 use nostray::{
-    Affine, Attenuation, Axis, Checker, Depth, Fixed, Form, Fresnel, Light, Mapping, Material,
-    Operator, Paint, Render, Rgb, Scalar, SceneBuilder, SceneError, Spotlight, Texture, Vector,
+    Affine, Attenuation, Axis, Checker, Fixed, Form, Fresnel, Light, Mapping, Material, Operator,
+    Paint, Rgb, Scalar, SceneBuilder, SceneError, Spotlight, Texture,
 };
+
+use super::{rgb, shoot, tenths};
 
 type Builder<S> = SceneBuilder<S, Fixed<8, 16, 8, 8>>;
 
-/// Width and height of the picture.
-pub(crate) const SIZE: [u32; 2] = [48, 36];
+const SIZE: [u32; 2] = [48, 36];
 
-/// Traces the picture in some size and hands over the light of each pixel, row by row.
+/// Traces the picture and hands over the light of each pixel, row by row.
+#[inline(never)]
 pub(crate) fn trace<S: Scalar>(
-    [width, height]: [u32; 2],
-    mut sink: impl FnMut(Rgb<S>),
+    shrink: u32,
+    sink: &mut impl FnMut(Rgb<S>),
 ) -> Result<(), SceneError> {
     let mut builder = Builder::new();
     build::<S>(&mut builder)?;
-    let scene = builder.scene()?;
-    let render: Render<S, 7, 32> = Render::new(&scene, width, height, Depth::fixed(6))?;
-    for pixel in render {
-        sink(pixel.color);
-    }
-    Ok(())
-}
-
-fn tenths<S: Scalar>(x: i32, y: i32, z: i32) -> S::Vec3 {
-    S::Vec3::new(S::from_ratio(x, 10), S::from_ratio(y, 10), S::from_ratio(z, 10))
-}
-
-fn rgb<S: Scalar>(r: i32, g: i32, b: i32) -> Rgb<S> {
-    Rgb::new(S::from_ratio(r, 10), S::from_ratio(g, 10), S::from_ratio(b, 10))
+    shoot(&builder.scene()?, SIZE, shrink, sink)
 }
 
 fn build<S: Scalar>(scene: &mut Builder<S>) -> Result<(), SceneError> {

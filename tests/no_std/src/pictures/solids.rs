@@ -1,0 +1,88 @@
+//! Each solid in a picture of its own: half glass, half mirror, on a floor, so that rays leave it
+//! on both sides and its shadow is seen.
+
+use nostray::{
+    Affine, Axis, Checker, Fixed, Form, Fresnel, Mapping, Material, Paint, Rgb, Scalar,
+    SceneBuilder, SceneError, Texture,
+};
+
+use super::{rgb, shoot, sun, tenths};
+
+/// Room for the floor and one solid.
+type Builder<S> = SceneBuilder<S, Fixed<4, 8, 4, 32, 64>>;
+
+const SIZE: [u32; 2] = [24, 18];
+
+pub(super) fn trace<S: Scalar>(
+    shrink: u32,
+    sink: &mut impl FnMut(Rgb<S>),
+) -> Result<(), SceneError> {
+    picture(shrink, sink, ellipsoid)?;
+    picture(shrink, sink, frustum)?;
+    picture(shrink, sink, polygon)
+}
+
+/// One picture. What a solid adds lies about the ball of radius 1 around the origin and has the
+/// given material.
+#[inline(never)]
+fn picture<S: Scalar>(
+    shrink: u32,
+    sink: &mut impl FnMut(Rgb<S>),
+    solid: impl FnOnce(&mut Builder<S>, u16) -> Result<(), SceneError>,
+) -> Result<(), SceneError> {
+    let mut builder = Builder::new();
+    let mirror = stage(&mut builder)?;
+    solid(&mut builder, mirror)?;
+    shoot(&builder.scene()?, SIZE, shrink, sink)
+}
+
+/// Light, a floor, and the material for the solid.
+#[inline(never)]
+fn stage<S: Scalar>(scene: &mut Builder<S>) -> Result<u16, SceneError> {
+    scene.ambient = rgb(2, 2, 3);
+    scene.camera.eye = tenths::<S>(12, 16, 42);
+    scene.light(sun())?;
+    let paints = [Paint::Solid(rgb(8, 8, 7)), Paint::Solid(rgb(2, 1, 3))];
+    let size = tenths::<S>(7, 7, 7);
+    let checker = Checker { paints, size, mapping: Mapping::Solid, placement: None };
+    let checker = scene.texture(Texture::Checker(checker))?;
+    let floor = scene
+        .material(Material { color: Paint::Texture(checker), ..Material::matte(rgb(1, 1, 1)) })?;
+    let normal = tenths::<S>(0, 10, 0);
+    let floor_form = Form::Plane { normal, offset: S::from_ratio(-11, 10) };
+    scene.leaf(floor_form, &Affine::identity(), floor)?;
+    scene.material(Material {
+        specular: S::HALF,
+        reflect: S::from_ratio(3, 10),
+        transmit: S::HALF,
+        ior: S::from_ratio(13, 10),
+        fresnel: Fresnel::Schlick,
+        absorb: rgb(1, 3, 5),
+        ..Material::matte(rgb(3, 5, 8))
+    })
+}
+
+fn ellipsoid<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneError> {
+    let ball = Form::Sphere { center: S::Vec3::default(), radius: S::ONE };
+    let place = Affine::scale(tenths::<S>(13, 6, 9)).then(&turned(Axis::Z, 25));
+    scene.leaf(ball, &place, material)
+}
+
+fn frustum<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneError> {
+    let (base, top) = (tenths::<S>(-7, -6, 2), tenths::<S>(6, 7, -3));
+    let (base_radius, top_radius) = (S::from_ratio(8, 10), S::from_ratio(3, 10));
+    let cone = Form::Cone { base, base_radius, top, top_radius };
+    scene.leaf(cone, &Affine::identity(), material)
+}
+
+/// An arrow, so not convex, that leans back.
+fn polygon<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneError> {
+    let flat = [(-10, -8), (0, -3), (10, -8), (0, 10)];
+    let vertices = flat.map(|(x, y)| tenths::<S>(x, y, 0));
+    let place = turned(Axis::X, -20).then(&turned(Axis::Y, 15));
+    scene.leaf(Form::Polygon { vertices: &vertices }, &place, material)
+}
+
+fn turned<S: Scalar>(axis: Axis, degrees: i32) -> Affine<S> {
+    Affine::rotate(axis, S::from_i32(degrees))
+}
