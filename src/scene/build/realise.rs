@@ -1,10 +1,12 @@
 //! From a shape as people describe it to the shape that is stored, and its placement.
 
-use super::{Form, SceneBuilder, Storage, Store, add, add_narrow};
+mod flat;
+
+use super::{Form, SceneBuilder, Storage, Store, add_narrow};
 use crate::error::{Item, SceneError};
 use crate::place::{Affine, Placement, apply_transposed};
 use crate::scalar::{Axis, Number, Scalar, Vector};
-use crate::shape::{Cone, Cuboid, Cylinder, Plane, Polygon, Shape, Sphere, Triangle};
+use crate::shape::{Cone, Cuboid, Cylinder, Plane, Shape, Sphere};
 
 impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
     /// The shape and the placement that a form becomes, with its vertices in the table.
@@ -54,28 +56,9 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
                 Ok((Shape::Cone(shape), self.stand(&stand)?))
             }
             Form::Triangle { corners, normals } => {
-                let mut indices = [0; 3];
-                for (index, corner) in indices.iter_mut().zip(corners) {
-                    *index = add(&mut self.points, "points", to_world.point(corner))?;
-                }
-                let first = self.points.entries().len() as u32;
-                for normal in normals.iter().flatten() {
-                    let normal = apply_transposed::<S>(&inverse, S::widen_vec(*normal)).normalize();
-                    add(&mut self.points, "points", S::narrow_vec(normal))?;
-                }
-                let normals = if normals.is_some() { first } else { Triangle::FLAT };
-                Ok((Shape::Triangle(Triangle { corners: indices, normals }), None))
+                Ok((self.realise_triangle(corners, normals, to_world, &inverse)?, None))
             }
-            Form::Polygon { vertices } => {
-                let first = self.points.entries().len() as u32;
-                for &vertex in vertices {
-                    add(&mut self.points, "points", to_world.point(vertex))?;
-                }
-                let placed = self.points.entries().get(first as usize..).unwrap_or(&[]);
-                let normal = Polygon::<S>::newell(placed);
-                let count = placed.len() as u32;
-                Ok((Shape::Polygon(Polygon { first, count, normal }), None))
-            }
+            Form::Polygon { vertices } => Ok((self.realise_polygon(vertices, to_world)?, None)),
         }
     }
 
