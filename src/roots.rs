@@ -292,7 +292,7 @@ pub(crate) fn bernstein_crossings<T: Real, const N: usize>(
     }
     // The lowest derivative with one change of sign at most: it has just that one.
     let mut order = 0;
-    while order + 1 < N && variations(&bernstein_derivative(coefficients, order), N - order) > 1 {
+    while order + 1 < N && !is_parted(&bernstein_derivative(coefficients, order), N - order) {
         order += 1;
     }
     let ends = [T::ZERO, T::ONE];
@@ -304,6 +304,18 @@ pub(crate) fn bernstein_crossings<T: Real, const N: usize>(
     }
     let f = |u| bernstein_value(coefficients, N - 1, u);
     crossings_between(knots.as_slice(), ends, f, emit);
+}
+
+/// The curve of the first `len` coefficients has at most one change of sign, and that lies strictly between
+/// its ends: where an end is 0 and the curve is not monotone, that is not the place.
+#[inline]
+fn is_parted<T: Real, const N: usize>(coefficients: &[T; N], len: usize) -> bool {
+    let mut ends = coefficients.iter().take(1).chain(coefficients.iter().take(len).skip(len - 1));
+    match variations(coefficients, len) {
+        0 => true,
+        1 => ends.all(|&end| end != T::ZERO),
+        _ => false,
+    }
 }
 
 /// How often neighbours among the first `len` coefficients differ in sign, 0 counting as positive:

@@ -329,6 +329,20 @@ fn steps_are_bounded() {
     assert!(sum <= roots * 12, "{sum} steps to {roots} roots");
 }
 
+/// A curve that comes back to 0 at an end changes its sign before; once the end was taken for the place.
+#[test]
+fn an_end_at_zero_is_not_the_change_of_sign() {
+    let one = |curve: &[f64; 3], expected: f64| {
+        let found = all_bernstein(curve);
+        found.len() == 1 && (found[0] - expected).abs() <= 1e-15
+    };
+    // (1 − u)·(9u − 6), and u·(3 − 9u).
+    assert!(one(&[-6.0, 1.5, 0.0], 2.0 / 3.0));
+    assert!(one(&[0.0, 1.5, -6.0], 1.0 / 3.0));
+    assert_eq!(all_bernstein(&[-1.0, 0.0]), [1.0]);
+    assert_eq!(all_bernstein(&[0.0, -1.0]), [0.0]);
+}
+
 #[test]
 fn the_bound_on_evaluations_is_the_sum_over_the_chain() {
     assert_eq!(evaluations_max(1), STEPS_MAX + 2);
