@@ -50,12 +50,11 @@ static PARTS: Parts<f32> = Parts {
         },
         Material { color: Paint::Solid(Rgb::new(0.1, 0.1, 0.12)), reflect: 0.7, ..Material::PLAIN },
     ],
-    textures: &[Texture::Checker(Checker {
-        paints: [Paint::Solid(Rgb::new(0.8, 0.8, 0.75)), Paint::Solid(Rgb::new(0.15, 0.2, 0.3))],
-        size: Vec3::ONE,
-        mapping: Mapping::Solid,
-        placement: None,
-    })],
+    textures: &[Texture::new(Pattern::Checker, Ramp::new(0, 2))],
+    stops: &[
+        Stop::color(0.0, Rgb::new(0.8, 0.8, 0.75)),
+        Stop::color(1.0, Rgb::new(0.15, 0.2, 0.3)),
+    ],
     lights: &[Light::Point {
         at: Vec3::new(-4.0, 8.0, 6.0),
         color: Rgb::new(0.9, 0.9, 0.85),

@@ -11,9 +11,10 @@
 //! | [`ray`], [`place`] | rays and where they start; the coordinates of placed solids |
 //! | [`span`], [`bounds`] | intervals of a ray and set operations on them; boxes |
 //! | [`shape`], [`solid`] | the solids; trees of them by set operations |
+//! | [`stats`] | what was done |
 //! | [`color`], [`texture`], [`material`] | what a surface looks like |
 //! | [`light`], [`camera`], [`background`] | what it is lit by, and seen from and against |
-//! | [`error`], [`stats`] | what can be wrong with a scene; what was done |
+//! | [`error`] | what can be wrong with a scene |
 //! | [`scene`] | tables of all this, borrowed and checked; nearest hit and shadows |
 //! | [`render`] | the picture, ray by ray, on a bounded stack |
 //! | `display` | a picture on a display, with the feature `embedded-graphics` |
@@ -41,6 +42,8 @@ pub mod shape;
 
 pub mod solid;
 
+pub mod stats;
+
 pub mod color;
 
 pub mod texture;
@@ -55,10 +58,9 @@ pub mod background;
 
 pub mod error;
 
-pub mod stats;
-
 pub mod scene;
 
+mod look;
 mod shade;
 
 pub mod render;
@@ -85,7 +87,10 @@ pub use shape::{Cone, Cuboid, Cylinder, Plane, Polygon, Shape, Sphere, Tables, T
 pub use solid::{Leaf, Node};
 pub use span::{Boundary, Operator, Passage, Spans};
 pub use stats::{Event, Stats, Tally};
-pub use texture::{Checker, Mapping, Paint, Texture};
+pub use texture::{
+    Blend, Channel, Channels, Filter, Format, Image, Mapping, Paint, Parameter, Pattern, Ramp,
+    Space, Spot, Stop, Texture, Wrap, noise::Octaves,
+};
 
 /// The examples of the README, which must compile and hold.
 #[cfg(doctest)]

@@ -2,7 +2,7 @@
 
 use crate::color::Rgb;
 use crate::scalar::{Number, Real, Scalar};
-use crate::texture::Paint;
+use crate::texture::{Channels, Paint};
 
 /// The shape of a highlight.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -57,6 +57,8 @@ pub struct Material<S: Scalar> {
     pub fresnel: Fresnel,
     /// Absorption inside, per unit of length: light falls off as e^(−absorb·length).
     pub absorb: Rgb<S>,
+    /// The textures that drive other numbers than the colour, and the normals.
+    pub channels: Channels,
 }
 
 impl<S: Scalar> Material<S> {
@@ -74,6 +76,7 @@ impl<S: Scalar> Material<S> {
         ior: S::ONE,
         fresnel: Fresnel::Off,
         absorb: Rgb::BLACK,
+        channels: Channels::NONE,
     };
 
     /// A dull surface of one colour: ka 1, kd 0.7, nothing else.
@@ -94,13 +97,13 @@ impl<S: Scalar> Material<S> {
 
     /// The highlight for a cosine: cosine^shininess.
     #[inline]
-    pub(crate) fn lobe(&self, cosine: S::Unit) -> S {
-        let whole = self.shininess.floor_i64();
+    pub(crate) fn lobe(shininess: S, cosine: S::Unit) -> S {
+        let whole = shininess.floor_i64();
         match u16::try_from(whole) {
-            Ok(n) if S::from_i32(i32::from(n)) == self.shininess => {
+            Ok(n) if S::from_i32(i32::from(n)) == shininess => {
                 S::from_unit(cosine.powi(u32::from(n)))
             }
-            _ => S::narrow(S::widen_unit(cosine).pow(self.shininess.widen())),
+            _ => S::narrow(S::widen_unit(cosine).pow(shininess.widen())),
         }
     }
 
@@ -133,12 +136,11 @@ mod tests {
 
     #[test]
     fn whole_and_broken_exponents_agree() {
-        let with = |shininess: f64| Material { shininess, ..Material::matte(Rgb::WHITE) };
         for shininess in [0.0, 1.0, 2.0, 7.0, 32.0, 300.0, 65535.0, 65536.0, 100_000.0, 2.5, 31.75]
         {
             for cosine in [1e-3, 0.5, 0.9, 0.999, 0.99999, 1.0] {
                 let expected = libm::pow(cosine, shininess);
-                let found = with(shininess).lobe(cosine);
+                let found = Material::lobe(shininess, cosine);
                 assert!((found - expected).abs() <= 1e-11, "{cosine}^{shininess}: {found}");
             }
         }

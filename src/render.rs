@@ -230,7 +230,8 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
             self.push(Pending { weight, after: distance, ..pending });
             return;
         }
-        let Some(surface) = Surface::new(&self.scene, &line, &hit.boundary) else {
+        let tally = &mut self.tally;
+        let Some(mut surface) = Surface::new(&self.scene, &line, &hit.boundary, tally) else {
             return;
         };
         let ratio = if passage == Passage::Touch {
@@ -239,7 +240,7 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
             let other = if behind == here { Some(hit.object) } else { behind };
             self.scene.ior(here).widen() / self.scene.ior(other).widen()
         };
-        let branches = surface.branches(ray.dir, weight, ratio);
+        let branches = surface.branches(&self.scene, ray.dir, weight, ratio, &mut self.tally);
         let (view, diffuse) = (ray.dir, branches.diffuse);
         let local =
             surface.local_light(&self.scene, view, diffuse, &mut self.boundaries, &mut self.tally);

@@ -1,20 +1,19 @@
 //! The light that leaves a surface: what is lit directly, and which rays carry the rest.
 
 use crate::color::Rgb;
-use crate::material::{Highlight, Material};
+use crate::look::Look;
+use crate::material::{Fresnel, Highlight, Material};
 use crate::ray::{Line, Ray, Start};
 use crate::scalar::{Number, Real, Scalar, Vector};
 use crate::scene::Scene;
 use crate::solid::Contact;
 use crate::span::{Boundary, End, Passage};
 use crate::stats::{Event, Tally};
-use crate::texture::Spot;
+use crate::texture::Parameter;
 
 /// A surface where a ray met it.
 pub(crate) struct Surface<'a, S: Scalar> {
-    material: &'a Material<S>,
-    /// The colour here, textures applied.
-    color: Rgb<S>,
+    look: Look<'a, S>,
     contact: Contact<S>,
     node: u32,
     face: u32,
@@ -46,15 +45,16 @@ pub(crate) struct Branches<S: Scalar> {
 impl<'a, S: Scalar> Surface<'a, S> {
     /// The surface at a boundary; `None` only for one that is not of this scene.
     pub(crate) fn new(
-        scene: &Scene<'a, S>,
+        scene: &'a Scene<'_, S>,
         line: &Line<S>,
         boundary: &Boundary<S>,
+        tally: &mut impl Tally,
     ) -> Option<Self> {
         let Boundary { t, node, face, passage, inverted } = *boundary;
         let geometry = scene.geometry();
         let leaf = geometry.leaf(node)?;
-        let material = scene.material(leaf.material)?;
         let contact = geometry.contact(line, leaf, End { t, face });
+        let look = Look::new(scene, leaf, &contact, face)?;
         // The side is known from the boundary; only an open surface asks the normal, which
         // rounding may turn over at a grazing angle.
         let from_within = match passage {
@@ -63,15 +63,9 @@ impl<'a, S: Scalar> Surface<'a, S> {
             Passage::Leave => !inverted,
         };
         let normal = if from_within { -contact.normal } else { contact.normal };
-        let textures = scene.textures();
-        let uv = if textures.wants_uv(material.color) {
-            leaf.shape.uv(contact.local, face, &scene.parts().tables)
-        } else {
-            [S::ZERO; 2]
-        };
-        let color = textures.color(material.color, &Spot { position: contact.position, uv });
         let shading = scene.shading_normal(leaf, &contact, face, normal);
-        Some(Self { material, color, contact, node, face, passage, from_within, normal, shading })
+        let shading = look.relief(shading, from_within, scene, tally);
+        Some(Self { look, contact, node, face, passage, from_within, normal, shading })
     }
 
     fn start(&self, other_side: bool) -> Start<S> {
@@ -91,21 +85,24 @@ impl<'a, S: Scalar> Surface<'a, S> {
     /// The light of the lamps and the ambient light towards the viewer against `view`, with
     /// the share of the diffuse light that Fresnel's law leaves.
     pub(crate) fn local_light(
-        &self,
-        scene: &Scene<'a, S>,
+        &mut self,
+        scene: &Scene<'_, S>,
         view: S::Dir,
         diffuse_share: S,
         buffer: &mut [Boundary<S>],
         tally: &mut impl Tally,
     ) -> Rgb<S> {
-        let material = self.material;
+        let material = self.look.material;
         let parts = scene.parts();
-        let mut light = parts.ambient * self.color * material.ambient;
-        let diffuse = material.diffuse * diffuse_share;
-        if diffuse == S::ZERO && material.specular == S::ZERO {
+        let mut light = Rgb::BLACK;
+        if !parts.ambient.is_black() && material.ambient != S::ZERO {
+            let ambient = self.look.number(Parameter::Ambient, scene, tally);
+            light = parts.ambient * self.look.color(scene, tally) * ambient;
+        }
+        if material.diffuse * diffuse_share == S::ZERO && material.specular == S::ZERO {
             return light;
         }
-        let gloss = if material.metallic { self.color } else { Rgb::WHITE } * material.specular;
+        let mut gloss = None;
         for lamp in parts.lights {
             let Some(seen) = lamp.seen_from(self.contact.position) else {
                 tally.count(Event::ShadowSkip);
@@ -116,11 +113,17 @@ impl<'a, S: Scalar> Surface<'a, S> {
                 tally.count(Event::ShadowSkip);
                 continue;
             }
-            let mut share = self.color * (diffuse * S::from_unit(facing));
+            let mut share = Rgb::BLACK;
+            if material.diffuse * diffuse_share != S::ZERO {
+                let diffuse = self.look.diffuse(scene, tally) * diffuse_share;
+                share = self.look.color(scene, tally) * (diffuse * S::from_unit(facing));
+            }
             if material.specular > S::ZERO {
                 let cosine = self.highlight_cosine(seen.toward, view, facing);
                 if cosine > S::Unit::ZERO {
-                    share += gloss * material.lobe(cosine);
+                    let (gloss, shininess) =
+                        *gloss.get_or_insert_with(|| self.look.gloss(scene, tally));
+                    share += gloss * Material::lobe(shininess, cosine);
                 }
             }
             let arriving = seen.color * share;
@@ -139,7 +142,7 @@ impl<'a, S: Scalar> Surface<'a, S> {
     /// R·V of Phong's model, or N·H of Blinn's.
     #[inline]
     fn highlight_cosine(&self, toward: S::Dir, view: S::Dir, facing: S::Unit) -> S::Unit {
-        let cosine = match self.material.highlight {
+        let cosine = match self.look.material.highlight {
             Highlight::Phong => S::mirror(toward, self.shading, facing).dot(view),
             Highlight::Blinn => {
                 let half = S::unit(S::widen_dir(toward) - S::widen_dir(view));
@@ -153,21 +156,29 @@ impl<'a, S: Scalar> Surface<'a, S> {
     /// is the index of refraction on this side over that on the other.
     ///
     /// Snell's law decides the direction; beyond the critical angle all that would pass is mirrored.
-    pub(crate) fn branches(&self, view: S::Dir, weight: Rgb<S>, ratio: S::Wide) -> Branches<S> {
-        let material = self.material;
-        let (mut reflect, mut transmit) = (material.reflect, material.transmit);
+    pub(crate) fn branches(
+        &mut self,
+        scene: &Scene<'_, S>,
+        view: S::Dir,
+        weight: Rgb<S>,
+        ratio: S::Wide,
+        tally: &mut impl Tally,
+    ) -> Branches<S> {
+        let material = self.look.material;
+        let mut reflect = self.look.number(Parameter::Reflect, scene, tally);
+        let mut transmit = self.look.number(Parameter::Transmit, scene, tally);
         let mut diffuse = S::ONE;
         let cosine = (-self.shading.dot(view)).clamp(S::Unit::ZERO, S::Unit::ONE);
         let mut through = S::widen_dir(view);
         if self.passage != Passage::Touch
-            && (transmit > S::ZERO || material.fresnel != crate::material::Fresnel::Off)
+            && (transmit > S::ZERO || material.fresnel != Fresnel::Off)
         {
             let (one, cos_in) = (S::Wide::ONE, S::widen_unit(cosine));
             let square = one - ratio.squared() * (one - cos_in.squared());
             if square > S::Wide::ZERO {
                 let cos_out = square.sqrt();
                 let moved = S::narrow(material.reflectance(cos_in, cos_out, ratio));
-                reflect += moved * (transmit + material.diffuse);
+                reflect += moved * (transmit + self.look.diffuse(scene, tally));
                 transmit *= S::ONE - moved;
                 diffuse = S::ONE - moved;
                 if ratio != one {
@@ -179,9 +190,9 @@ impl<'a, S: Scalar> Surface<'a, S> {
                 transmit = S::ZERO;
             }
         }
-        let tint = if material.metallic { self.color } else { Rgb::WHITE };
         let reflected = (reflect > S::ZERO).then(|| {
             let dir = S::unit(S::widen_dir(self.mirrored(view, cosine)));
+            let tint = self.look.tint(scene, tally);
             self.branch(dir, false, weight * tint * reflect)
         });
         let refracted =

@@ -23,11 +23,13 @@ pub enum Event {
     WeightCut,
     /// A secondary ray that the error budget paid for.
     BudgetCut,
+    /// A texture that was evaluated.
+    Texture,
 }
 
 impl Event {
     /// All events in the order of [`Stats::counts`].
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::PrimaryRay,
         Self::ReflectedRay,
         Self::RefractedRay,
@@ -38,6 +40,7 @@ impl Event {
         Self::DepthCut,
         Self::WeightCut,
         Self::BudgetCut,
+        Self::Texture,
     ];
 
     /// The name in reports.
@@ -53,6 +56,7 @@ impl Event {
             Self::DepthCut => "depth_cuts",
             Self::WeightCut => "weight_cuts",
             Self::BudgetCut => "budget_cuts",
+            Self::Texture => "textures",
         }
     }
 }

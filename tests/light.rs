@@ -176,13 +176,10 @@ fn plate_moves_light_by_snells_law() {
     let through = inner / (1.0 - inner * inner).sqrt();
     // From x = 0 on the upper face at y = 2 down to the floor at y = −1.
     let landing = thickness * through + sine / cosine;
-    let checker = Checker {
-        paints: [Paint::Solid(Rgb::WHITE), Paint::Solid(Rgb::BLACK)],
-        size: DVec3::new(landing, 10.0, 10.0),
-        mapping: Mapping::Solid,
-        placement: None,
-    };
-    let texture = builder.texture(Texture::Checker(checker)).unwrap();
+    let stops = [Stop::color(0.0, Rgb::WHITE), Stop::color(1.0, Rgb::BLACK)];
+    let ramp = builder.ramp(&stops, Blend::Linear).unwrap();
+    let checker = Texture { size: [landing, 10.0, 10.0], ..Texture::new(Pattern::Checker, ramp) };
+    let texture = builder.texture(checker).unwrap();
     let color = Paint::Texture(texture);
     let floor = Material { diffuse: 0.0, color, ..Material::matte(Rgb::WHITE) };
     let floor = builder.material(floor).unwrap();

@@ -202,7 +202,7 @@ fn lists_are_written_with_either_bracket() {
     };
     let round = digest("round.ron", "((1, 0, 0), (0, 0, 1))");
     assert_eq!(digest("square.ron", "[[1, 0, 0], [0, 0, 1]]"), round);
-    for short in ["((1, 0, 0))", "[(1, 0, 0), (0, 0, 1), (0, 1, 0)]"] {
+    for short in ["((1, 0, 0))", "[]", "[(1, 0), (0, 0, 1)]", "[(1, 0, 0, 0), (0, 0, 1)]"] {
         let message = refusal(&[&file("short.ron", &scene(short))], 1);
         assert!(message.contains("short.ron:1:"), "{message}");
     }

@@ -15,6 +15,7 @@ struct Tables {
     objects: Vec<Object<f32>>,
     materials: Vec<Material<f32>>,
     textures: Vec<Texture<f32>>,
+    stops: Vec<Stop<f32>>,
     lights: Vec<Light<f32>>,
     placements: Vec<Placement<f32>>,
     points: Vec<Vec3>,
@@ -41,13 +42,14 @@ fn triangle() -> Node<f32> {
     leaf(Shape::Triangle(Triangle { corners: [0, 1, 2], normals: Triangle::FLAT }))
 }
 
-fn checker(first: Paint<f32>) -> Texture<f32> {
-    Texture::Checker(Checker {
-        paints: [first, Paint::Solid(GREY)],
-        mapping: Mapping::Solid,
-        size: Vec3::ONE,
-        placement: Some(0),
-    })
+/// A texture of the stops with this index and the next.
+fn checker(first: u16) -> Texture<f32> {
+    Texture { placement: Some(0), ..Texture::new(Pattern::Checker, Ramp::new(first, 2)) }
+}
+
+fn stops(first: Paint<f32>, second: Paint<f32>) -> [Stop<f32>; 4] {
+    let grey = Stop::color(1.0, GREY);
+    [Stop { at: 0.0, paint: first }, grey, Stop { at: 0.0, paint: second }, grey]
 }
 
 impl Tables {
@@ -65,7 +67,8 @@ impl Tables {
             nodes: vec![ball(), op(Operator::Union, 4), ball(), triangle(), Node::Leaf(placed)],
             objects: vec![Object::new(0, 1, 0), Object::new(1, 4, 0)],
             materials: vec![Material::matte(GREY)],
-            textures: vec![checker(Paint::Solid(GREY)), checker(Paint::Texture(0))],
+            textures: vec![checker(0), checker(2)],
+            stops: stops(Paint::Solid(GREY), Paint::Texture(0)).to_vec(),
             lights: vec![
                 Light::Point { at: Vec3::ONE, color: GREY, attenuation: Attenuation::NONE },
                 Light::Directional { toward, color: GREY },
@@ -95,12 +98,13 @@ impl Tables {
             objects: &self.objects,
             materials: &self.materials,
             textures: &self.textures,
+            stops: &self.stops,
             lights: &self.lights,
             placements: &self.placements,
             tables: nostray::Tables { points: &self.points, ..nostray::Tables::EMPTY },
-            camera: self.camera,
             background: self.background,
             ambient: self.ambient,
+            ..Parts::seen_by(self.camera)
         })
     }
 }
@@ -235,31 +239,23 @@ fn indices_stay_within_their_tables() {
     assert_eq!(error, beyond(Item::Object(1), "nodes", u32::MAX, 5));
     let error = refused(|t| t.materials[0].color = Paint::Texture(2));
     assert_eq!(error, beyond(Item::Material(0), "textures", 2, 2));
-    let error = refused(|t| t.textures[1] = checker(Paint::Texture(2)));
+    let error = refused(|t| t.stops[2].paint = Paint::Texture(2));
     assert_eq!(error, beyond(Item::Texture(1), "textures", 2, 2));
-    let error = refused(|t| {
-        let Texture::Checker(checker) = &mut t.textures[1];
-        checker.placement = Some(1);
-    });
+    let error = refused(|t| t.textures[1].placement = Some(1));
     assert_eq!(error, beyond(Item::Texture(1), "placements", 1, 1));
 }
 
 #[test]
 fn textures_name_earlier_ones_and_have_a_size() {
     for names in [0, 1] {
-        let error = refused(|t| t.textures[0] = checker(Paint::Texture(names)));
+        let error = refused(|t| t.stops[0].paint = Paint::Texture(names));
         let names = u32::from(names);
         assert_eq!(error, SceneError::TextureOrder { at: Item::Texture(0), names });
     }
-    let sized = |size: Vec3| {
-        refused(|t| {
-            let Texture::Checker(checker) = &mut t.textures[0];
-            checker.size = size;
-        })
-    };
+    let sized = |size: [f32; 3]| refused(|t| t.textures[0].size = size);
     let (at, field) = (Item::Texture(0), "size");
-    assert_eq!(sized(Vec3::new(1.0, 0.0, 1.0)), SceneError::NotPositive { at, field });
-    assert_eq!(sized(Vec3::NAN), SceneError::NotFinite { at, field });
+    assert_eq!(sized([1.0, 0.0, 1.0]), SceneError::NotPositive { at, field });
+    assert_eq!(sized([1.0, f32::NAN, 1.0]), SceneError::NotFinite { at, field });
 }
 
 /// Why the good scene is refused with other nodes as its second object.

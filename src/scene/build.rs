@@ -1,6 +1,7 @@
 //! Scenes put together at run time, in tables of fixed size.
 
 mod form;
+mod paint;
 mod realise;
 
 pub use form::Form;
@@ -18,7 +19,7 @@ use crate::scalar::{Axis, Scalar, Vector};
 use crate::shape::{Shape, Tables};
 use crate::solid::{Leaf, NESTING_MAX, Node};
 use crate::span::Operator;
-use crate::texture::Texture;
+use crate::texture::{Channel, Image, Stop, Texture};
 
 /// A table that grows, as far as it can.
 pub trait Store<T: Copy>: Default {
@@ -58,16 +59,19 @@ pub trait Storage {
     type Objects<T: Copy>: Store<T>;
     /// The tables of nodes and of placements.
     type Nodes<T: Copy>: Store<T>;
-    /// The tables of materials, of textures and of lights.
+    /// The tables of materials, of textures with their images and channels, and of lights.
     type Materials<T: Copy>: Store<T>;
-    /// The table of vertices.
+    /// The tables of vertices and of the stops of colour ramps.
     type Points<T: Copy>: Store<T>;
     /// The tables of numbers, of indices and of programs, for solids of many parts.
     type Data<T: Copy>: Store<T>;
+    /// The bytes of images.
+    type Pixels<T: Copy>: Store<T>;
 }
 
 /// Tables of fixed size, without a heap: so many objects; nodes and placements; materials,
-/// textures and lights; vertices; numbers, indices and bytes of programs.
+/// textures with their images and channels, and lights; vertices and stops of ramps; numbers, indices
+/// and bytes of programs; bytes of images.
 #[derive(Clone, Copy, Debug)]
 pub struct Fixed<
     const OBJECTS: usize,
@@ -75,16 +79,18 @@ pub struct Fixed<
     const MATERIALS: usize,
     const POINTS: usize,
     const DATA: usize = 0,
+    const PIXELS: usize = 0,
 >;
 
-impl<const O: usize, const N: usize, const M: usize, const P: usize, const D: usize> Storage
-    for Fixed<O, N, M, P, D>
+impl<const O: usize, const N: usize, const M: usize, const P: usize, const D: usize, const X: usize>
+    Storage for Fixed<O, N, M, P, D, X>
 {
     type Objects<T: Copy> = heapless::Vec<T, O>;
     type Nodes<T: Copy> = heapless::Vec<T, N>;
     type Materials<T: Copy> = heapless::Vec<T, M>;
     type Points<T: Copy> = heapless::Vec<T, P>;
     type Data<T: Copy> = heapless::Vec<T, D>;
+    type Pixels<T: Copy> = heapless::Vec<T, X>;
 }
 
 /// A scene that is put together piece by piece.
@@ -105,6 +111,10 @@ pub struct SceneBuilder<S: Scalar, M: Storage = Fixed<16, 64, 16, 64>> {
     objects: M::Objects<Object<S>>,
     materials: M::Materials<Material<S>>,
     textures: M::Materials<Texture<S>>,
+    stops: M::Points<Stop<S>>,
+    images: M::Materials<Image>,
+    pixels: M::Pixels<u8>,
+    channels: M::Materials<Channel<S>>,
     lights: M::Materials<Light<S>>,
     points: M::Points<S::Vec3>,
     numbers: M::Data<S>,
@@ -171,6 +181,10 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
             objects: Default::default(),
             materials: Default::default(),
             textures: Default::default(),
+            stops: Default::default(),
+            images: Default::default(),
+            pixels: Default::default(),
+            channels: Default::default(),
             lights: Default::default(),
             points: Default::default(),
             numbers: Default::default(),
@@ -179,22 +193,6 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
             open: heapless::Vec::new(),
             finished: Finished::default(),
         }
-    }
-
-    /// Adds a material and gives its index.
-    ///
-    /// # Errors
-    /// If there is no room for it.
-    pub fn material(&mut self, material: Material<S>) -> Result<u16, SceneError> {
-        add_narrow(&mut self.materials, "materials", material)
-    }
-
-    /// Adds a texture and gives its index. It may name the textures before it.
-    ///
-    /// # Errors
-    /// If there is no room for it.
-    pub fn texture(&mut self, texture: Texture<S>) -> Result<u16, SceneError> {
-        add_narrow(&mut self.textures, "textures", texture)
     }
 
     /// Adds a light.
@@ -285,6 +283,10 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
             objects: self.objects.entries(),
             materials: self.materials.entries(),
             textures: self.textures.entries(),
+            stops: self.stops.entries(),
+            images: self.images.entries(),
+            pixels: self.pixels.entries(),
+            channels: self.channels.entries(),
             lights: self.lights.entries(),
             placements: self.placements.entries(),
             tables: Tables {

@@ -1,5 +1,7 @@
 //! The one place where a scene is checked; after it nothing can fail.
 
+mod texture;
+
 use super::structure::{Structure, object_structure};
 use super::{Limits, Object, Parts};
 use crate::background::Background;
@@ -13,7 +15,7 @@ use crate::scalar::{Axis, Number, Real, Scalar, Vector};
 use crate::shape::{Shape, Triangle};
 use crate::solid::{Leaf, NESTING_MAX, Node};
 use crate::span::Operator;
-use crate::texture::{Paint, Texture};
+use texture::{check_channels, check_paint, check_texture};
 
 /// Checks all tables and works out what the scene needs.
 pub(super) fn check<S: Scalar>(parts: &Parts<'_, S>) -> Result<Limits<S>, SceneError> {
@@ -164,53 +166,6 @@ fn check_placement<S: Scalar>(at: Item, placement: &Placement<S>) -> Result<(), 
     Ok(())
 }
 
-fn check_paint<S: Scalar>(
-    at: Item,
-    paint: Paint<S>,
-    textures: usize,
-    own: Option<u32>,
-) -> Result<(), SceneError> {
-    match paint {
-        Paint::Solid(color) => check_light_amount(at, "color", color),
-        Paint::Texture(index) => {
-            let (index, len) = (u32::from(index), textures as u32);
-            if index >= len {
-                Err(SceneError::IndexOutOfRange { at, table: "textures", index, len })
-            } else if own.is_some_and(|own| index >= own) {
-                Err(SceneError::TextureOrder { at, names: index })
-            } else {
-                Ok(())
-            }
-        }
-    }
-}
-
-fn check_texture<S: Scalar>(
-    parts: &Parts<'_, S>,
-    index: u32,
-    texture: &Texture<S>,
-) -> Result<(), SceneError> {
-    let at = Item::Texture(index);
-    for paint in texture.paints() {
-        check_paint(at, paint, parts.textures.len(), Some(index))?;
-    }
-    if let Some(placement) = texture.placement() {
-        let (index, len) = (u32::from(placement), parts.placements.len() as u32);
-        if index >= len {
-            return Err(SceneError::IndexOutOfRange { at, table: "placements", index, len });
-        }
-    }
-    let Texture::Checker(checker) = texture;
-    let size = checker.size;
-    if !size.is_finite() {
-        return Err(SceneError::NotFinite { at, field: "size" });
-    }
-    if !(size.x().min(size.y()).min(size.z()) >= S::LENGTH_MIN) {
-        return Err(SceneError::NotPositive { at, field: "size" });
-    }
-    Ok(())
-}
-
 /// Light is finite and not negative.
 fn check_light_amount<S: Scalar>(
     at: Item,
@@ -252,6 +207,7 @@ fn check_material<S: Scalar>(
     material: &Material<S>,
 ) -> Result<(), SceneError> {
     check_paint(at, material.color, parts.textures.len(), None)?;
+    check_channels(parts, at, material)?;
     for (value, field) in [
         (material.ambient, "ambient"),
         (material.diffuse, "diffuse"),
@@ -334,17 +290,6 @@ fn check_light<S: Scalar>(at: Item, light: &Light<S>) -> Result<(), SceneError> 
 
 /// The greatest amounts of light, from the tables alone.
 fn reach<S: Scalar>(parts: &Parts<'_, S>) -> Limits<S> {
-    let brightest_paint = |paint: Paint<S>| match paint {
-        Paint::Solid(color) => color.max_part(),
-        Paint::Texture(last) => {
-            // A texture reaches no texture after itself.
-            let reached = parts.textures.iter().take(usize::from(last) + 1);
-            reached.flat_map(Texture::paints).fold(S::ZERO, |most, paint| match paint {
-                Paint::Solid(color) => most.max(color.max_part()),
-                Paint::Texture(_) => most,
-            })
-        }
-    };
     let zero = S::Wide::ZERO;
     let lights =
         parts.lights.iter().fold(zero, |sum, light| sum + light.brightest().max_part().widen());
@@ -352,7 +297,7 @@ fn reach<S: Scalar>(parts: &Parts<'_, S>) -> Limits<S> {
     let (mut local, mut growth) = (zero, zero);
     let mut transparent = false;
     for material in parts.materials {
-        let color = brightest_paint(material.color).widen();
+        let color = texture::brightest(parts, material.color).widen();
         let tint = if material.metallic { color } else { S::Wide::ONE };
         let lit = material.diffuse.widen() * color + material.specular.widen() * tint;
         let ambient = parts.ambient.max_part().widen() * material.ambient.widen();

@@ -22,7 +22,7 @@ use crate::scalar::Scalar;
 use crate::shape::Tables;
 use crate::solid::{Geometry, Node};
 use crate::span::{Boundary, Spans};
-use crate::texture::{Texture, Textures};
+use crate::texture::{Channel, Image, Paint, Seen, Spot, Stop, Texture, Textures};
 
 /// One solid of a scene: a run of nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,6 +55,14 @@ pub struct Parts<'a, S: Scalar> {
     pub materials: &'a [Material<S>],
     /// The textures.
     pub textures: &'a [Texture<S>],
+    /// The stops of their ramps.
+    pub stops: &'a [Stop<S>],
+    /// Their images.
+    pub images: &'a [Image],
+    /// The bytes of the images.
+    pub pixels: &'a [u8],
+    /// The textures that drive numbers of materials, and normals.
+    pub channels: &'a [Channel<S>],
     /// The lights.
     pub lights: &'a [Light<S>],
     /// The placements of leaves and textures.
@@ -77,6 +85,10 @@ impl<S: Scalar> Parts<'_, S> {
             objects: &[],
             materials: &[],
             textures: &[],
+            stops: &[],
+            images: &[],
+            pixels: &[],
+            channels: &[],
             lights: &[],
             placements: &[],
             tables: Tables::EMPTY,
@@ -154,6 +166,11 @@ impl<'a, S: Scalar> Scene<'a, S> {
         Ok(self.geometry().evaluate(object.first, object.count, &line, buffer, || ()))
     }
 
+    /// What a paint is at a spot, and which cells of its textures the spot lies in.
+    pub fn see(&self, paint: Paint<S>, spot: &Spot<'_, S>) -> Seen<S> {
+        self.textures().see(paint, spot, &mut ())
+    }
+
     /// There is room for the boundaries of any solid of the scene.
     pub(crate) fn check_room(&self, room: usize) -> Result<(), SceneError> {
         let needed = self.limits.boundaries;
@@ -175,7 +192,8 @@ impl<'a, S: Scalar> Scene<'a, S> {
 
     #[inline]
     pub(crate) const fn textures(&self) -> Textures<'a, S> {
-        Textures { textures: self.parts.textures, placements: self.parts.placements }
+        let Parts { textures, stops, images, pixels, placements, .. } = self.parts;
+        Textures { textures, stops, images, pixels, placements }
     }
 
     #[inline]

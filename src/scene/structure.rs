@@ -40,20 +40,8 @@ pub struct Structure {
 ///     ball(0.5),
 /// ];
 /// static OBJECTS: [Object<f32>; 2] = [Object::new(0, 1, 0), Object::new(1, 3, 0)];
-/// static MATERIALS: [Material<f32>; 1] = [Material {
-///     color: Paint::Solid(Rgb::new(0.9, 0.2, 0.1)),
-///     ambient: 1.0,
-///     diffuse: 0.7,
-///     specular: 0.0,
-///     shininess: 32.0,
-///     highlight: Highlight::Phong,
-///     metallic: false,
-///     reflect: 0.0,
-///     transmit: 0.0,
-///     ior: 1.0,
-///     fresnel: Fresnel::Off,
-///     absorb: Rgb::new(0.0, 0.0, 0.0),
-/// }];
+/// static MATERIALS: [Material<f32>; 1] =
+///     [Material { color: Paint::Solid(Rgb::new(0.9, 0.2, 0.1)), ..Material::PLAIN }];
 ///
 /// // A wrong size, a missing material or an operator without operands would not compile.
 /// const NEEDS: Structure = match structure(&NODES, &OBJECTS, MATERIALS.len(), 0) {
@@ -66,18 +54,8 @@ pub struct Structure {
 ///     nodes: &NODES,
 ///     objects: &OBJECTS,
 ///     materials: &MATERIALS,
-///     textures: &[],
-///     lights: &[],
-///     placements: &[],
-///     tables: Tables::EMPTY,
-///     camera: Camera {
-///         eye: Vec3::new(0.0, 0.0, 5.0),
-///         look_at: Vec3::ZERO,
-///         up: Vec3::Y,
-///         projection: Projection::Pinhole { fov: 40.0 },
-///     },
-///     background: Background::Constant(Rgb::BLACK),
 ///     ambient: Rgb::WHITE,
+///     ..Parts::seen_by(Camera::pinhole(Vec3::new(0.0, 0.0, 5.0), Vec3::ZERO, Vec3::Y, 40.0))
 /// })?;
 /// let render: Render<f32, 1, { NEEDS.boundaries as usize }> =
 ///     Render::new(&scene, 8, 8, Depth::fixed(0))?;

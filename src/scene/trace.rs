@@ -3,12 +3,14 @@
 use super::{Object, Scene};
 use crate::color::Rgb;
 use crate::error::SceneError;
+use crate::look::Look;
 use crate::material::Material;
 use crate::ray::{Line, Ray};
 use crate::scalar::{Number, Real, Scalar, Vector};
 use crate::solid::{Contact, Leaf, Node};
 use crate::span::{Boundary, End, Passage};
 use crate::stats::{Event, Tally};
+use crate::texture::{Channels, Parameter};
 
 /// The nearest boundary on a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -283,13 +285,28 @@ impl<'a, S: Scalar> Scene<'a, S> {
             };
             let behind = found.media.behind(object, boundary.passage);
             if boundary.passage == Passage::Touch || behind != found.media.here() {
-                let leaf = self.geometry().leaf(boundary.node);
-                let material = leaf.and_then(|leaf| self.material(leaf.material));
-                share = share * material.map_or(S::ZERO, |material| material.transmit);
+                share = share * self.transmit_at(line, &boundary, tally);
             }
             after = boundary.t;
         }
         share
+    }
+
+    /// The share of light that a transparent surface lets through where a ray meets it.
+    fn transmit_at(&self, line: &Line<S>, boundary: &Boundary<S>, tally: &mut impl Tally) -> S {
+        let Boundary { t, node, face, .. } = *boundary;
+        let geometry = self.geometry();
+        let Some(leaf) = geometry.leaf(node) else {
+            return S::ZERO;
+        };
+        match self.material(leaf.material) {
+            Some(material) if material.channels == Channels::NONE => material.transmit,
+            _ => {
+                let contact = geometry.contact(line, leaf, End { t, face });
+                let look = Look::new(self, leaf, &contact, face);
+                look.map_or(S::ZERO, |look| look.number(Parameter::Transmit, self, tally))
+            }
+        }
     }
 
     /// A transparent surface that does not show: what rules the space is the same on both sides.

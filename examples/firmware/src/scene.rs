@@ -83,12 +83,10 @@ const MATERIALS: &[Material<Q16>] = &[
     glossy(Paint::Solid(grey(30)), 20),
 ];
 
-const TEXTURES: &[Texture<Q16>] = &[Texture::Checker(Checker {
-    paints: [Paint::Solid(grey(80)), Paint::Solid(grey(12))],
-    size: at(100, 100, 100),
-    mapping: Mapping::Solid,
-    placement: None,
-})];
+const TEXTURES: &[Texture<Q16>] = &[Texture::new(Pattern::Checker, Ramp::new(0, 2))];
+
+const STOPS: &[Stop<Q16>] =
+    &[Stop::color(cents(0), grey(80)), Stop::color(cents(100), grey(12))];
 
 const LIGHTS: &[Light<Q16>] = &[
     Light::Point { at: at(-400, 700, 600), color: grey(80), attenuation: Attenuation::NONE },
@@ -100,6 +98,7 @@ pub(crate) const PARTS: Parts<'static, Q16> = Parts {
     objects: OBJECTS,
     materials: MATERIALS,
     textures: TEXTURES,
+    stops: STOPS,
     lights: LIGHTS,
     background: Background::Gradient { bottom: grey(40), top: grey(3) },
     ambient: grey(10),

@@ -5,12 +5,16 @@
 //! says what stands for it.
 
 mod solid;
+mod texture;
 
 pub use solid::{Move, Object, Solid};
+pub use texture::{
+    Blend, Drawn, Filter, Format, Made, Mapping, PATTERNS, Space, Stop, Texture, Transfer, Wrap,
+};
 
 use serde::Deserialize;
 
-use crate::written::{Background, Factor, Paint, Several, Table, Triple, present};
+use crate::written::{Amount, Background, Paint, Reliefs, Table, Triple, present};
 
 /// A whole scene file.
 #[derive(Clone, Debug, Deserialize)]
@@ -118,36 +122,6 @@ impl Default for Attenuation {
     }
 }
 
-/// A pattern.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Texture {
-    /// Two paints in alternate cells.
-    Checker {
-        /// The paint of the cell at the origin, and the other.
-        colors: Several<Paint, 2>,
-        /// The edge of a cell, or its edges along x, y and z; 1 if left out.
-        #[serde(default)]
-        size: Factor,
-        /// Which coordinates it is drawn in; those of the scene if left out.
-        #[serde(default)]
-        mapping: Mapping,
-        /// From the coordinates of a solid pattern to the scene's.
-        #[serde(default)]
-        place: Vec<Move>,
-    },
-}
-
-/// Which coordinates a pattern is drawn in.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-pub enum Mapping {
-    /// The surface's own two.
-    Uv,
-    /// The three of the scene.
-    #[default]
-    Solid,
-}
-
 /// What a surface does with light, and what fills the solid behind it.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -155,44 +129,47 @@ pub struct Material {
     /// The colour, or the name of a texture; white if left out.
     pub color: Paint,
     /// The share of the ambient light; 1 if left out.
-    pub ambient: f64,
+    pub ambient: Amount,
     /// The share of the diffuse reflection; 0.7 if left out.
-    pub diffuse: f64,
+    pub diffuse: Amount,
     /// The strength of the highlights; 0 if left out.
-    pub specular: f64,
+    pub specular: Amount,
     /// The exponent of the highlights; 32 if left out.
-    pub shininess: f64,
+    pub shininess: Amount,
     /// The shape of the highlights; Phong if left out.
     pub highlight: Highlight,
     /// Highlights and mirror images take the surface's colour; not if left out.
     pub metallic: bool,
     /// The weight of the mirrored ray; 0 if left out.
-    pub reflect: f64,
+    pub reflect: Amount,
     /// The weight of the refracted ray; 0 if left out.
-    pub transmit: f64,
+    pub transmit: Amount,
     /// The index of refraction inside; 1 if left out.
     pub ior: f64,
     /// More reflection at grazing angles; off if left out.
     pub fresnel: Fresnel,
     /// Absorption inside, per unit of length; none if left out.
     pub absorb: Triple,
+    /// The textures that are heights over the surface; none if left out.
+    pub relief: Reliefs,
 }
 
 impl Default for Material {
     fn default() -> Self {
         Self {
             color: Paint::default(),
-            ambient: 1.0,
-            diffuse: 0.7,
-            specular: 0.0,
-            shininess: 32.0,
+            ambient: 1.0.into(),
+            diffuse: 0.7.into(),
+            specular: 0.0.into(),
+            shininess: 32.0.into(),
             highlight: Highlight::Phong,
             metallic: false,
-            reflect: 0.0,
-            transmit: 0.0,
+            reflect: 0.0.into(),
+            transmit: 0.0.into(),
             ior: 1.0,
             fresnel: Fresnel::Off,
             absorb: Triple::default(),
+            relief: Reliefs::default(),
         }
     }
 }

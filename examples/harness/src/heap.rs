@@ -41,4 +41,5 @@ impl Storage for Heap {
     type Materials<T: Copy> = Growable<T>;
     type Points<T: Copy> = Growable<T>;
     type Data<T: Copy> = Growable<T>;
+    type Pixels<T: Copy> = Growable<T>;
 }

@@ -130,7 +130,13 @@ impl Source {
             }
         };
         let told = Told { name, text };
-        let assembly = Assembly::of_document(&document).map_err(|flaw| told.flaw(&flaw))?;
+        let folder = match self {
+            Self::Gallery(_) => None,
+            Self::File(path, _) => path.parent(),
+        };
+        let folder = folder.unwrap_or(Path::new(""));
+        let assembly = Assembly::of_document_in(&document, folder);
+        let assembly = assembly.map_err(|flaw| told.flaw(&flaw))?;
         Ok(Loaded { size: None, notes: Vec::new(), assembly, told })
     }
 }

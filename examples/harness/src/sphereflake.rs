@@ -4,9 +4,9 @@
 use nostray::Vector;
 use nostray::glam::DVec3;
 
-use crate::document::{Camera, Document, Light, Mapping, Material, Object, Solid, Texture};
+use crate::document::{Camera, Document, Drawn, Light, Material, Object, Solid, Texture};
 use crate::moves::sin_cos_degrees;
-use crate::written::{Background, Factor, Gradient, Paint, Several, Table, Triple};
+use crate::written::{Background, Factor, Gradient, Many, Paint, Table, Triple};
 
 /// How much smaller a sphere is than the one it sits on.
 const SHRINK: f64 = 1.0 / 3.0;
@@ -52,27 +52,23 @@ fn directions(axis: DVec3) -> [DVec3; 9] {
 
 /// Everything but the spheres.
 fn surroundings() -> Document {
-    let tiles = Texture::Checker {
-        colors: Several([
-            Paint::Color(Triple([0.62, 0.55, 0.45])),
-            Paint::Color(Triple([0.14, 0.12, 0.11])),
-        ]),
-        size: Factor([1.2; 3]),
-        mapping: Mapping::Solid,
-        place: Vec::new(),
-    };
+    let colors =
+        vec![Paint::Color(Triple([0.62, 0.55, 0.45])), Paint::Color(Triple([0.14, 0.12, 0.11]))];
+    let (colors, size) = (Some(Many(colors)), Some(Factor([1.2; 3])));
+    let drawn = Drawn { colors, size, ..Drawn::default() };
+    let tiles = Texture { pattern: "Checker", drawn };
     let floor = Material {
         color: Paint::Texture("tiles".to_owned()),
-        diffuse: 0.8,
-        reflect: 0.12,
+        diffuse: 0.8.into(),
+        reflect: 0.12.into(),
         ..Material::default()
     };
     let mirror = Material {
         color: Paint::Color(Triple([0.55, 0.62, 0.72])),
-        diffuse: 0.32,
-        specular: 0.6,
-        shininess: 60.0,
-        reflect: 0.55,
+        diffuse: 0.32.into(),
+        specular: 0.6.into(),
+        shininess: 60.0.into(),
+        reflect: 0.55.into(),
         ..Material::default()
     };
     let lamp = |at, color| Light::Point { at: Triple(at), color, attenuation: Default::default() };

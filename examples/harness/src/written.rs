@@ -1,5 +1,9 @@
 //! Values that a scene file may write in more than one way.
 
+mod look;
+
+pub use look::{Amount, Many, Relief, Reliefs, Varying};
+
 use std::fmt;
 use std::marker::PhantomData;
 

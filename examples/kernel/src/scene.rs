@@ -85,12 +85,15 @@ macro_rules! scene {
                 glossy(Paint::Solid(rgb(20, 45, 85)), 10),
             ];
 
-            const TEXTURES: &[Texture<Number>] = &[Texture::Checker(Checker {
-                paints: [Paint::Solid(rgb(85, 82, 75)), Paint::Solid(rgb(12, 14, 18))],
-                size: at(80, 80, 80),
-                mapping: Mapping::Solid,
-                placement: None,
-            })];
+            const TEXTURES: &[Texture<Number>] = &[Texture {
+                size: [cents(80); 3],
+                ..Texture::new(Pattern::Checker, Ramp::new(0, 2))
+            }];
+
+            const STOPS: &[Stop<Number>] = &[
+                Stop::color(cents(0), rgb(85, 82, 75)),
+                Stop::color(cents(100), rgb(12, 14, 18)),
+            ];
 
             const LIGHTS: &[Light<Number>] = &[
                 Light::Point {
@@ -110,6 +113,7 @@ macro_rules! scene {
                 objects: OBJECTS,
                 materials: MATERIALS,
                 textures: TEXTURES,
+                stops: STOPS,
                 lights: LIGHTS,
                 background: Background::Gradient { bottom: rgb(60, 62, 66), top: rgb(16, 30, 62) },
                 ambient: rgb(12, 13, 16),

@@ -1,8 +1,8 @@
 //! Every kind of light, surface and operator in one picture.
 
 use nostray::{
-    Affine, Attenuation, Axis, Checker, Fixed, Form, Fresnel, Light, Mapping, Material, Operator,
-    Paint, Rgb, Scalar, SceneBuilder, SceneError, Spotlight, Texture,
+    Affine, Attenuation, Axis, Blend, Fixed, Form, Fresnel, Light, Material, Operator, Paint,
+    Pattern, Rgb, Scalar, SceneBuilder, SceneError, Spotlight, Stop, Texture,
 };
 
 use super::{rgb, shoot, tenths};
@@ -25,10 +25,9 @@ pub(crate) fn trace<S: Scalar>(
 fn build<S: Scalar>(scene: &mut Builder<S>) -> Result<(), SceneError> {
     scene.ambient = rgb(1, 1, 1);
     scene.camera.eye = tenths::<S>(0, 30, 70);
-    let paints = [Paint::Solid(rgb(9, 9, 8)), Paint::Solid(rgb(1, 2, 2))];
-    let size = tenths::<S>(10, 10, 10);
-    let checker = Checker { paints, size, mapping: Mapping::Solid, placement: None };
-    let checker = scene.texture(Texture::Checker(checker))?;
+    let paints = [Stop::color(S::ZERO, rgb(9, 9, 8)), Stop::color(S::ONE, rgb(1, 2, 2))];
+    let ramp = scene.ramp(&paints, Blend::Linear)?;
+    let checker = scene.texture(Texture::new(Pattern::Checker, ramp))?;
     let floor = scene.material(Material {
         color: Paint::Texture(checker),
         reflect: S::from_ratio(1, 5),

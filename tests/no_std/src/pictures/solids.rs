@@ -2,8 +2,8 @@
 //! on both sides and its shadow is seen.
 
 use nostray::{
-    Affine, Axis, Checker, Fixed, Form, Fresnel, Mapping, Material, Paint, Rgb, Scalar,
-    SceneBuilder, SceneError, Texture,
+    Affine, Axis, Blend, Fixed, Form, Fresnel, Material, Paint, Pattern, Rgb, Scalar, SceneBuilder,
+    SceneError, Stop, Texture,
 };
 
 use super::{rgb, shoot, sun, tenths};
@@ -42,10 +42,9 @@ fn stage<S: Scalar>(scene: &mut Builder<S>) -> Result<u16, SceneError> {
     scene.ambient = rgb(2, 2, 3);
     scene.camera.eye = tenths::<S>(12, 16, 42);
     scene.light(sun())?;
-    let paints = [Paint::Solid(rgb(8, 8, 7)), Paint::Solid(rgb(2, 1, 3))];
-    let size = tenths::<S>(7, 7, 7);
-    let checker = Checker { paints, size, mapping: Mapping::Solid, placement: None };
-    let checker = scene.texture(Texture::Checker(checker))?;
+    let tiles = [Stop::color(S::ZERO, rgb(8, 8, 7)), Stop::color(S::ONE, rgb(2, 1, 3))];
+    let tiles = Texture::new(Pattern::Checker, scene.ramp(&tiles, Blend::Linear)?);
+    let checker = scene.texture(Texture { size: [S::from_ratio(7, 10); 3], ..tiles })?;
     let floor = scene
         .material(Material { color: Paint::Texture(checker), ..Material::matte(rgb(1, 1, 1)) })?;
     let normal = tenths::<S>(0, 10, 0);
