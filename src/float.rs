@@ -87,6 +87,17 @@ macro_rules! float {
             fn sqrt(self) -> Self {
                 if self > 0.0 { $math::sqrt(self) } else { 0.0 }
             }
+            #[inline]
+            fn two_product(self, other: Self) -> (Self, Self) {
+                let (p, (ah, al), (bh, bl)) = (self * other, self.split(), other.split());
+                (p, Self::product_error(p, ah, al, bh, bl))
+            }
+            #[inline]
+            fn two_sum(self, other: Self) -> (Self, Self) {
+                let sum = self + other;
+                let part = sum - self;
+                (sum, (self - (sum - part)) + (other - part))
+            }
             fn sin_cos(self) -> (Self, Self) {
                 $math::sin_cos(self)
             }
@@ -116,6 +127,7 @@ macro_rules! float {
 
             const NAME: &'static str = $name;
             const REFINES: bool = true;
+            const PAIRS: bool = true;
             const EPSILON_ROOT: Self = $root;
             const COORD_MAX: Self = $coord;
             const LENGTH_MIN: Self = $length;
@@ -285,25 +297,25 @@ macro_rules! float {
                 aim: &SplitDir<$float>,
                 k: Self,
             ) -> $vec {
-                let (k_high, k_low) = $float::split(k);
-                let ([hx, hy, hz], [lx, ly, lz]) = (aim.high, aim.low);
-                let along = |o: $float, c: $float, d: $float, high: $float, low: $float| {
-                    // o − c and k·d, each as an unevaluated sum of two numbers.
-                    let (f, f_error) = $float::two_sum(o, -c);
-                    let p = k * d;
-                    let p_error = $float::product_error(p, k_high, k_low, high, low);
-                    let (sum, sum_error) = $float::two_sum(f, p);
-                    sum + (sum_error + (f_error + p_error))
-                };
-                <$vec>::new(
-                    along(origin.x, centre.x, dir.x, hx, lx),
-                    along(origin.y, centre.y, dir.y, hy, ly),
-                    along(origin.z, centre.z, dir.z, hz, lz),
-                )
+                let parts = $float::recentred(origin, centre, dir, aim, k);
+                <$vec>::from_array(parts.map(|(sum, error)| sum + error))
+            }
+
+            fn recentre_rest(
+                origin: $vec,
+                centre: $vec,
+                dir: $vec,
+                aim: &SplitDir<$float>,
+                k: Self,
+            ) -> $vec {
+                let parts = $float::recentred(origin, centre, dir, aim, k);
+                <$vec>::from_array(parts.map(|(sum, error)| error - ((sum + error) - sum)))
             }
         }
 
         impl ErrorFree for $float {
+            type Vec = $vec;
+
             #[inline]
             fn split(self) -> (Self, Self) {
                 let c = $split * self;
@@ -314,16 +326,28 @@ macro_rules! float {
             fn product_error(p: Self, ah: Self, al: Self, bh: Self, bl: Self) -> Self {
                 ((ah * bh - p) + ah * bl + al * bh) + al * bl
             }
-            #[inline]
-            fn two_product(a: Self, b: Self) -> (Self, Self) {
-                let (p, (ah, al), (bh, bl)) = (a * b, a.split(), b.split());
-                (p, Self::product_error(p, ah, al, bh, bl))
-            }
-            #[inline]
-            fn two_sum(a: Self, b: Self) -> (Self, Self) {
-                let sum = a + b;
-                let part = sum - a;
-                (sum, (a - (sum - part)) + (b - part))
+            fn recentred(
+                origin: $vec,
+                centre: $vec,
+                dir: $vec,
+                aim: &SplitDir<$float>,
+                k: Self,
+            ) -> [(Self, Self); 3] {
+                let (k_high, k_low) = $float::split(k);
+                let ([hx, hy, hz], [lx, ly, lz]) = (aim.high, aim.low);
+                let along = |o: $float, c: $float, d: $float, high: $float, low: $float| {
+                    // o − c and k·d, each as an unevaluated sum of two numbers.
+                    let (f, f_error) = $float::two_sum(o, -c);
+                    let p = k * d;
+                    let p_error = $float::product_error(p, k_high, k_low, high, low);
+                    let (sum, sum_error) = $float::two_sum(f, p);
+                    (sum, sum_error + (f_error + p_error))
+                };
+                [
+                    along(origin.x, centre.x, dir.x, hx, lx),
+                    along(origin.y, centre.y, dir.y, hy, ly),
+                    along(origin.z, centre.z, dir.z, hz, lz),
+                ]
             }
             fn grow(sum: &mut [Self; 8], terms: usize, term: Self) {
                 let mut carry = term;
@@ -344,14 +368,20 @@ macro_rules! float {
 /// Source: T. J. Dekker, "A floating-point technique for extending the available precision"
 /// (1971); D. E. Knuth, *The Art of Computer Programming*, volume 2, section 4.2.2.
 trait ErrorFree: Sized {
+    /// Three numbers.
+    type Vec;
     /// Two halves that multiply exactly.
     fn split(self) -> (Self, Self);
     /// What a product `p` of two numbers, given by their halves, rounded away.
     fn product_error(p: Self, ah: Self, al: Self, bh: Self, bl: Self) -> Self;
-    /// `a·b`.
-    fn two_product(a: Self, b: Self) -> (Self, Self);
-    /// `a + b`.
-    fn two_sum(a: Self, b: Self) -> (Self, Self);
+    /// `origin − centre + k·dir`, coordinate by coordinate.
+    fn recentred(
+        origin: Self::Vec,
+        centre: Self::Vec,
+        dir: Self::Vec,
+        aim: &SplitDir<Self>,
+        k: Self,
+    ) -> [(Self, Self); 3];
     /// Adds a term to an exact sum of so many parts in ascending order of magnitude.
     ///
     /// Source: J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic" (1997), section 2.4.

@@ -89,6 +89,11 @@ impl<S: Scalar> Line<S> {
         S::recentre(self.origin, centre, self.dir, &self.aim, k)
     }
 
+    /// What the rounding of [`recentred`](Self::recentred) took from its point.
+    pub(crate) fn recentred_rest(&self, centre: S::Vec3, k: S) -> S::WideVec {
+        S::recentre_rest(self.origin, centre, self.dir, &self.aim, k)
+    }
+
     /// The ray's line may come within `radius` of `centre`. Never false where it does; what
     /// rounding may have added to the distance is allowed for.
     #[inline]

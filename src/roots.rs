@@ -56,6 +56,15 @@ impl<T: Real, const N: usize> Knots<T, N> {
         Self { at: [T::ZERO; N], len: 0 }
     }
 
+    /// The same moved by a function that keeps their order.
+    #[must_use]
+    pub(crate) fn map(mut self, f: impl Fn(T) -> T) -> Self {
+        for t in &mut self.at {
+            *t = f(*t);
+        }
+        self
+    }
+
     /// The parameters.
     pub(crate) fn as_slice(&self) -> &[T] {
         self.at.get(..self.len as usize).unwrap_or(&[])
@@ -91,20 +100,38 @@ impl<T: Real, const N: usize> Knots<T, N> {
 struct Sample<T> {
     t: T,
     value: T,
+    slope: T,
     negative: bool,
 }
 
 impl<T: Real> Sample<T> {
     #[inline]
     fn at(t: T, f: impl Fn(T) -> [T; 2]) -> Self {
-        let [value, _] = f(t);
-        Self { t, value, negative: value < T::ZERO }
+        let [value, slope] = f(t);
+        Self { t, value, slope, negative: value < T::ZERO }
+    }
+
+    /// A first guess at the root between two samples of different sign: of a parabola with its
+    /// vertex at the end that is much the flatter, or else of the chord.
+    #[inline]
+    fn guess(&self, other: &Self) -> T {
+        let (width, four) = (other.t - self.t, T::TWO + T::TWO);
+        let (flat, steep) = (self.slope.abs(), other.slope.abs());
+        let share = self.value / (self.value - other.value);
+        if flat * four < steep {
+            self.t + width * share.sqrt()
+        } else if steep * four < flat {
+            other.t - width * (T::ONE - share).sqrt()
+        } else {
+            self.t + width * share
+        }
     }
 }
 
 /// The parameter between two places of different sign at which a function, given with its slope,
 /// changes its sign: Newton's steps where they stay in the bracket and shrink to 5/8, bisection
-/// otherwise. [`STEPS_MAX`] evaluations at most.
+/// otherwise. [`STEPS_MAX`] evaluations at most. A quick step of a few roundings of the greater end
+/// is the last one.
 #[inline]
 fn refine<T: Real>(from: &Sample<T>, to: &Sample<T>, f: impl Fn(T) -> [T; 2]) -> T {
     let (mut low, mut high) = (from.t, to.t);
@@ -115,8 +142,13 @@ fn refine<T: Real>(from: &Sample<T>, to: &Sample<T>, f: impl Fn(T) -> [T; 2]) ->
     }
     let middle = |low: T, high: T| low + (high - low) * T::HALF;
     let eighth = T::HALF * T::HALF * T::HALF;
-    let near = T::EPSILON * low.squared().max(high.squared());
-    let (mut t, mut moved) = (middle(low, high), high - low);
+    let size = low.squared().max(high.squared());
+    let near = T::EPSILON * size;
+    let fine = T::EPSILON * near * T::from_i32(64);
+    let (mut t, mut moved) = (from.guess(to), high - low);
+    if !(low < t && t < high) {
+        t = middle(low, high);
+    }
     // The last step was Newton's; it was so, and much shorter than the one before, also Newton's.
     let (mut newtonian, mut quick) = (false, false);
     for step in 0..STEPS_MAX {
@@ -126,8 +158,8 @@ fn refine<T: Real>(from: &Sample<T>, to: &Sample<T>, f: impl Fn(T) -> [T; 2]) ->
         } else {
             high = t;
         }
-        let newton = (value / slope).abs();
-        let next = t - value / slope;
+        let signed = value / slope;
+        let (next, newton) = (t - signed, signed.abs());
         if next == t || value == T::ZERO {
             break;
         }
@@ -139,6 +171,9 @@ fn refine<T: Real>(from: &Sample<T>, to: &Sample<T>, f: impl Fn(T) -> [T; 2]) ->
         if shrinks && low <= next && next <= high && step < NEWTON_MAX {
             quick = newtonian && newton <= moved * eighth;
             (t, moved, newtonian) = (next, newton, true);
+            if quick && newton.squared() <= fine {
+                break;
+            }
         } else {
             let next = middle(low, high);
             if !(low < next && next < high) {
@@ -215,6 +250,19 @@ pub(crate) fn turning_points<T: Real, const N: usize>(
             knots.replace(ends, |t| power_value(&derivative, t));
         }
     }
+    knots
+}
+
+/// Where a polynomial itself changes its sign between `low` and `high`, ascending: as knots of a
+/// function whose derivative it is, or has the sign of.
+#[inline(never)]
+pub(crate) fn knots<T: Real, const N: usize>(coefficients: &[T; N], ends: [T; 2]) -> Knots<T, N> {
+    let mut knots = turning_points(coefficients, ends);
+    if N == 3 {
+        let [c, b, a] = leading(coefficients);
+        return quadratic_knots([c, b, a], ends);
+    }
+    knots.replace(ends, |t| power_value(coefficients, t));
     knots
 }
 

@@ -46,6 +46,16 @@ const BAD_SOLIDS: &[(&str, &str, &str)] = &[
         ":3:32: objects[0].solid.Difference[1].Cylinder.top: ",
     ),
     (
+        "no-way-round",
+        "Torus(center: (0, 0, 0), axis: (0, 0, 0), major: 1, minor: 0.2)",
+        "objects[0].solid.Torus.axis: ",
+    ),
+    (
+        "no-tube",
+        "Torus(center: (0, 0, 0), major: 1, minor: 0)",
+        "objects[0].solid.Torus.minor: must be greater than 0",
+    ),
+    (
         "open",
         "Difference([Sphere(center: (0, 0, 0), radius: 1), Polygon([(0, 0, 0), (1, 0, 0), (0, 1, 0)])])",
         "objects[0].solid.Difference[1].Polygon: an open surface",

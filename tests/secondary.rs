@@ -144,7 +144,7 @@ impl<S: Float> Contact<S> {
                 let size = x.hypot(z);
                 (face, [x / size * across, edge(random, half), z / size * across])
             }
-            Shape::Triangle(_) | Shape::Polygon(_) => panic!("no inside"),
+            _ => panic!("no twin here"),
         };
         Self::at(subject, vector::<S>(near), face)
     }

@@ -9,7 +9,7 @@ use crate::scalar::{Number, Scalar, Vector};
 macro_rules! scalar {
     (
         $name:ident, $unit:ident, $inverse:ident, $label:literal, $bits:ident, $long:ident, $magnitude:ident,
-        $fraction:literal, $behind:literal, $size:literal, $root:literal, $coord:expr, $length:expr
+        $fraction:literal, $behind:literal, $size:literal, $pairs:literal, $root:literal, $coord:expr, $length:expr
     ) => {
         /// The reciprocal of a component of a direction: mantissa / 2^shift, in units that
         /// bring a difference of positions to a parameter.
@@ -42,6 +42,7 @@ macro_rules! scalar {
 
             const NAME: &'static str = $label;
             const REFINES: bool = false;
+            const PAIRS: bool = $pairs;
             const EPSILON_ROOT: Self = Self::from_bits($root);
             const COORD_MAX: Self = Self::from_bits($coord);
             const LENGTH_MIN: Self = Self::from_bits($length);
@@ -242,9 +243,26 @@ macro_rules! scalar {
                     along(origin.z, centre.z, dir.z),
                 )
             }
+            fn recentre_rest(
+                origin: Triple<Self>,
+                centre: Triple<Self>,
+                dir: Triple<$unit>,
+                _: &Triple<Wide>,
+                k: Self,
+            ) -> Triple<Wide> {
+                let along = |o: Self, c: Self, d: $unit| {
+                    let exact = Self::along_axis(o, c, d, k);
+                    Wide::halves(exact as i128, -($fraction + $behind)).1
+                };
+                Triple::new(
+                    along(origin.x, centre.x, dir.x),
+                    along(origin.y, centre.y, dir.y),
+                    along(origin.z, centre.z, dir.z),
+                )
+            }
         }
     };
 }
 
-scalar!(Q16, Unit16, Inverse16, "q16", i32, i64, u64, 16, 30, 4, 256, 8192 << 16, 16);
-scalar!(Q32, Unit32, Inverse32, "q32", i64, i128, u128, 32, 62, 8, 65536, 1 << 60, 256);
+scalar!(Q16, Unit16, Inverse16, "q16", i32, i64, u64, 16, 30, 4, false, 256, 8192 << 16, 16);
+scalar!(Q32, Unit32, Inverse32, "q32", i64, i128, u128, 32, 62, 8, true, 65536, 1 << 60, 256);

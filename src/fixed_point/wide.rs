@@ -75,6 +75,19 @@ impl Wide {
         Self::assemble(negative, rounded, exponent.saturating_add(shift as i32))
     }
 
+    /// `mantissa · 2^exponent` as two numbers: rounded to 63 bits, and the rest.
+    #[inline]
+    pub(crate) const fn halves(mantissa: i128, exponent: i32) -> (Self, Self) {
+        let high = Self::from_long(mantissa, exponent);
+        let shift = high.exponent - exponent;
+        if shift <= 0 || shift > 64 {
+            // Exact, or beyond what the exponent can tell.
+            return (high, Self::from_parts(0, 0));
+        }
+        let rest = mantissa.wrapping_sub((high.mantissa as i128) << shift);
+        (high, Self::from_long(rest, exponent))
+    }
+
     /// The nearest multiple of 2^−`fraction`, in such units, saturating at ±`most`.
     #[inline]
     pub(crate) const fn to_fixed(self, fraction: i32, most: i64) -> i64 {
@@ -302,6 +315,24 @@ impl Real for Wide {
         let radicand = (self.mantissa as u128) << (64 - odd);
         let root = radicand.isqrt() as u64;
         Self::assemble(false, root, (self.exponent - 64 + odd) / 2)
+    }
+    #[inline(never)]
+    fn two_sum(self, other: Self) -> (Self, Self) {
+        let (large, small) =
+            if self.exponent >= other.exponent { (self, other) } else { (other, self) };
+        let gap = large.exponent - small.exponent;
+        if large.mantissa == 0 || small.mantissa == 0 {
+            return (self + other, Self::ZERO);
+        } else if gap > 62 {
+            // The smaller is at most about half of the last place, or less.
+            return (large, small);
+        }
+        Self::halves(((large.mantissa as i128) << gap) + small.mantissa as i128, small.exponent)
+    }
+    #[inline(never)]
+    fn two_product(self, other: Self) -> (Self, Self) {
+        let (product, exponent) = self.product(other);
+        Self::halves(product, exponent)
     }
     fn sin_cos(self) -> (Self, Self) {
         super::functions::sin_cos(self)

@@ -5,8 +5,10 @@
 //! steps where precision is decided; each implementation makes them as exact as its
 //! format allows, and never asks the platform's mathematics library.
 
+mod pair;
 mod vector;
 
+pub(crate) use pair::Pair;
 pub use vector::{Axis, Vector};
 
 use core::fmt::{Debug, Display};
@@ -115,6 +117,22 @@ pub trait Real: Number + Div<Output = Self> {
     fn to_f64(self) -> f64;
     /// The square root, correctly rounded; 0 for negative numbers.
     fn sqrt(self) -> Self;
+    /// The rounded sum of two numbers and what was rounded away, exactly; of a number in fixed
+    /// point nothing is kept.
+    ///
+    /// Source: D. E. Knuth, *The Art of Computer Programming*, volume 2, section 4.2.2.
+    #[inline]
+    fn two_sum(self, other: Self) -> (Self, Self) {
+        (self + other, Self::ZERO)
+    }
+    /// The rounded product of two numbers and what was rounded away, exactly but for underflow; of a
+    /// number in fixed point nothing is kept.
+    ///
+    /// Source: T. J. Dekker, "A floating-point technique for extending the available precision" (1971).
+    #[inline]
+    fn two_product(self, other: Self) -> (Self, Self) {
+        (self * other, Self::ZERO)
+    }
     /// Sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
     /// The angle of the point (`x`, `self`) in −π..=π.
@@ -156,6 +174,9 @@ pub trait Scalar: Real + Display {
     const NAME: &'static str;
     /// Long sums are rounded to this precision, so that a root gains from a second step.
     const REFINES: bool;
+    /// The wide number has hardly more digits than a coordinate, so that what is to be decided closely
+    /// takes two of them.
+    const PAIRS: bool;
     /// A power of two at or just above the square root of the rounding of a number near 1.
     const EPSILON_ROOT: Self;
     /// The greatest magnitude of a legal coordinate or length.
@@ -244,6 +265,15 @@ pub trait Scalar: Real + Display {
     /// Haines et al., *Ray Tracing Gems* (2019), chapter 7, carried further; in fixed point
     /// products of integers are exact.
     fn recentre(
+        origin: Self::Vec3,
+        centre: Self::Vec3,
+        dir: Self::Dir,
+        aim: &Self::Aim,
+        k: Self,
+    ) -> Self::WideVec;
+
+    /// What the rounding of [`recentre`](Self::recentre) took from its point, itself rounded.
+    fn recentre_rest(
         origin: Self::Vec3,
         centre: Self::Vec3,
         dir: Self::Dir,

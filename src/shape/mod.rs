@@ -7,6 +7,7 @@
 //! | [`Cuboid`] | slabs with the reciprocals of the ray, parallel rays apart, ties decided exactly |
 //! | [`Cylinder`] | recentred, a disc in the plane across the axis, clipped by its caps |
 //! | [`Cone`] | recentred, the discriminant as a sum of squares; one nappe, clipped by its caps |
+//! | [`Torus`] | recentred, cut into monotone pieces by the derivative of its quartic, refined on its distance |
 //! | [`Triangle`] | watertight edge functions in the space of the ray |
 //! | [`Polygon`] | the same edge functions, counted along a half-line; concave allowed |
 
@@ -16,6 +17,7 @@ mod cylinder;
 mod plane;
 mod polygon;
 mod sphere;
+mod torus;
 mod triangle;
 
 pub use cone::Cone;
@@ -24,6 +26,7 @@ pub use cylinder::Cylinder;
 pub use plane::Plane;
 pub use polygon::Polygon;
 pub use sphere::Sphere;
+pub use torus::Torus;
 pub use triangle::Triangle;
 
 use crate::bounds::Bounds;
@@ -130,6 +133,8 @@ pub enum Shape<S: Scalar> {
     Cylinder(Cylinder<S>),
     /// A cone or frustum with its caps.
     Cone(Cone<S>),
+    /// A torus.
+    Torus(Torus<S>),
     /// A triangle, an open surface.
     Triangle(Triangle),
     /// A plane polygon, an open surface.
@@ -144,6 +149,7 @@ macro_rules! each {
             Shape::Box($inner) => $body,
             Shape::Cylinder($inner) => $body,
             Shape::Cone($inner) => $body,
+            Shape::Torus($inner) => $body,
             Shape::Triangle($inner) => $body,
             Shape::Polygon($inner) => $body,
         }
@@ -162,6 +168,7 @@ impl<S: Scalar> Shape<S> {
             Self::Sphere(_) | Self::Plane(_) | Self::Box(_) | Self::Cylinder(_) | Self::Cone(_) => {
                 1
             }
+            Self::Torus(_) => 2,
             Self::Triangle(_) | Self::Polygon(_) => 1,
         }
     }

@@ -9,8 +9,11 @@
     reason = "a measure of errors need not be the same to the bit"
 )]
 
+pub mod exact;
+pub mod ring;
 pub mod subject;
 pub mod table;
+pub mod tori;
 
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};

@@ -189,7 +189,7 @@ fn stored<S: Float>(shape: &Shape<S>, place: Option<&Placement<S>>) -> Solid {
         Shape::Cone(c) => tube(c.center, c.half_height, [c.base_radius, c.top_radius]),
         Shape::Box(b) => Solid::Cuboid { min: point::<S>(b.min), max: point::<S>(b.max) },
         Shape::Plane(p) => Solid::Half { normal: point::<S>(p.normal), offset: real(p.offset) },
-        Shape::Triangle(_) | Shape::Polygon(_) => panic!("no inside"),
+        _ => panic!("no twin here"),
     };
     match place {
         None => inside,

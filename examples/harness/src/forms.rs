@@ -41,6 +41,10 @@ impl<S: Scalar> Stock<S> {
                 let (base_radius, top_radius) = (s(base_radius), s(top_radius));
                 ("Cone", Form::Cone { base: v(base), base_radius, top: v(top), top_radius })
             }
+            Solid::Torus { center, axis, major, minor } => {
+                let (center, axis) = (v(center), v(axis));
+                ("Torus", Form::Torus { center, axis, major: s(major), minor: s(minor) })
+            }
             Solid::Triangle { a, b, c, normals } => {
                 let normals = normals.map(|normals| normals.0.map(v));
                 ("Triangle", Form::Triangle { corners: [a, b, c].map(v), normals })

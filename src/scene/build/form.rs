@@ -46,6 +46,17 @@ pub enum Form<'a, S: Scalar> {
         /// The radius of the upper cap; may be 0.
         top_radius: S,
     },
+    /// A torus.
+    Torus {
+        /// The middle.
+        center: S::Vec3,
+        /// The axis that it lies around, of any length but 0.
+        axis: S::Vec3,
+        /// The distance of the middle of the tube from the axis.
+        major: S,
+        /// The radius of the tube; where it is greater than the other the solid is a filled spindle.
+        minor: S,
+    },
     /// A triangle, an open surface.
     Triangle {
         /// The corners, counterclockwise from outside.

@@ -1,10 +1,11 @@
 //! From a shape as people describe it to the shape that is stored, and its placement.
 
 mod flat;
+mod torus;
 
 use super::{Form, SceneBuilder, Storage, Store, add_narrow};
 use crate::error::{Item, SceneError};
-use crate::place::{Affine, Placement, apply_transposed};
+use crate::place::{Affine, Placement, Rows, apply_transposed};
 use crate::scalar::{Axis, Number, Scalar, Vector};
 use crate::shape::{Cone, Cuboid, Cylinder, Plane, Shape, Sphere};
 
@@ -54,6 +55,9 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
                     top_radius: stand.scaled(top_radius),
                 };
                 Ok((Shape::Cone(shape), self.stand(&stand)?))
+            }
+            Form::Torus { center, axis, major, minor } => {
+                self.realise_torus([center, axis], [major, minor], to_world)
             }
             Form::Triangle { corners, normals } => {
                 Ok((self.realise_triangle(corners, normals, to_world, &inverse)?, None))
@@ -107,6 +111,16 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
     }
 }
 
+/// The rows of a rotation of the local y axis into a direction that is not zero.
+fn turned_to<S: Scalar>(axis: S::WideVec) -> Rows<S> {
+    let unit = axis.normalize();
+    if unit == S::WideVec::ZERO.with(Axis::Y, S::Wide::ONE) {
+        return Affine::<S>::identity().rows;
+    }
+    let (w, u) = unit.basis();
+    Axis::ALL.map(|axis| S::WideVec::new(u.get(axis), unit.get(axis), w.get(axis)))
+}
+
 /// Where a centred shape stands: a map without the factor of a similarity, which goes into
 /// the shape's lengths instead.
 struct Stand<S: Scalar> {
@@ -144,17 +158,28 @@ impl<S: Scalar> Stand<S> {
         if !(length >= S::LENGTH_MIN.widen()) {
             return Err(SceneError::Empty { at, field: "top" });
         }
-        let unit = axis.normalize();
-        let upright = unit == S::WideVec::ZERO.with(Axis::Y, S::Wide::ONE);
-        let rows = if upright {
-            Affine::<S>::identity().rows
-        } else {
-            let (w, u) = unit.basis();
-            Axis::ALL.map(|axis| S::WideVec::new(u.get(axis), unit.get(axis), w.get(axis)))
-        };
-        let own = Affine { rows, offset: (S::widen_vec(base) + S::widen_vec(top)) * S::Wide::HALF };
+        let middle = (S::widen_vec(base) + S::widen_vec(top)) * S::Wide::HALF;
+        let own = Affine { rows: turned_to::<S>(axis), offset: middle };
         let stand = Self::new(&own.then(to_world)).ok_or(SceneError::SingularPlacement { at })?;
         Ok((stand, length * S::Wide::HALF))
+    }
+
+    /// The stand of a body in a place whose local y axis has a direction.
+    fn around(
+        center: S::Vec3,
+        axis: S::Vec3,
+        to_world: &Affine<S>,
+        at: Item,
+    ) -> Result<Self, SceneError> {
+        let axis = S::widen_vec(axis);
+        if !axis.is_finite() {
+            return Err(SceneError::NotFinite { at, field: "axis" });
+        }
+        if !(axis.length() >= S::LENGTH_MIN.widen()) {
+            return Err(SceneError::Empty { at, field: "axis" });
+        }
+        let own = Affine { rows: turned_to::<S>(axis), offset: S::widen_vec(center) };
+        Self::new(&own.then(to_world)).ok_or(SceneError::SingularPlacement { at })
     }
 
     /// A length of the shape, as it is in the scene.

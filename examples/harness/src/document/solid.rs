@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 
+use super::upward;
 use crate::written::{Factor, Several, Triple, present};
 
 /// A solid with its material and its place.
@@ -63,6 +64,18 @@ pub enum Solid {
         top: Triple,
         /// The radius of the upper cap.
         top_radius: f64,
+    },
+    /// A torus; where `minor` is greater than `major`, a filled spindle.
+    Torus {
+        /// The middle.
+        center: Triple,
+        /// The axis that it lies around, of any length but 0; +y if left out.
+        #[serde(default = "upward")]
+        axis: Triple,
+        /// The distance of the middle of the tube from the axis.
+        major: f64,
+        /// The radius of the tube.
+        minor: f64,
     },
     /// A triangle, an open surface.
     Triangle {
