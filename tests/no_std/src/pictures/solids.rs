@@ -19,7 +19,9 @@ pub(super) fn trace<S: Scalar>(
 ) -> Result<(), SceneError> {
     picture(shrink, sink, ellipsoid)?;
     picture(shrink, sink, frustum)?;
-    picture(shrink, sink, polygon)
+    picture(shrink, sink, polygon)?;
+    picture(shrink, sink, ring)?;
+    picture(shrink, sink, spindle)
 }
 
 /// One picture. What a solid adds lies about the ball of radius 1 around the origin and has the
@@ -80,6 +82,24 @@ fn polygon<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), Scene
     let vertices = flat.map(|(x, y)| tenths::<S>(x, y, 0));
     let place = turned(Axis::X, -20).then(&turned(Axis::Y, 15));
     scene.leaf(Form::Polygon { vertices: &vertices }, &place, material)
+}
+
+fn ring<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneError> {
+    torus(scene, material, [7, 3])
+}
+
+fn spindle<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneError> {
+    torus(scene, material, [3, 6])
+}
+
+fn torus<S: Scalar>(
+    scene: &mut Builder<S>,
+    material: u16,
+    radii: [i32; 2],
+) -> Result<(), SceneError> {
+    let (center, axis) = (S::Vec3::default(), tenths::<S>(3, 10, 5));
+    let [major, minor] = radii.map(|radius| S::from_ratio(radius, 10));
+    scene.leaf(Form::Torus { center, axis, major, minor }, &Affine::identity(), material)
 }
 
 fn turned<S: Scalar>(axis: Axis, degrees: i32) -> Affine<S> {
