@@ -9,8 +9,8 @@
 use nostray::ray::{Line, Start};
 use nostray::shape::{Sight, Tables};
 use nostray::{
-    Affine, Fixed, Form, Material, Node, Placement, Ray, Real as _, Rgb, SceneBuilder, SceneError,
-    Shape, Vector as _,
+    Affine, Fixed, Form, Material, Node, Placement, Ray, Rgb, SceneBuilder, SceneError, Shape,
+    Vector as _,
 };
 
 use super::exact::Exact;

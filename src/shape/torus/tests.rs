@@ -45,7 +45,7 @@ fn a_ring_is_crossed_twice_in_its_plane_and_left_alone_along_its_axis() {
     near(ends(&ring, DVec3::new(-9.0, 1.0, 0.0), DVec3::X, None), &[]);
     near(ends(&ring, DVec3::new(2.0, -5.0, 0.0), DVec3::Y, None), &[]);
     // One that touches the wall of the hole from within the tube stays inside.
-    let reach = 12.0_f64.sqrt();
+    let reach: f64 = Real::sqrt(12.0);
     near(ends(&ring, DVec3::new(2.0, 0.0, 0.0), DVec3::Z, None), &[-reach, reach]);
 }
 
@@ -57,7 +57,7 @@ fn a_spindle_is_filled() {
     near(ends(&spindle, DVec3::X * -10.0, DVec3::X, None), &[2.0, 18.0]);
     // Above the tips it is a ring.
     let found = ends(&spindle, DVec3::new(-10.0, 4.5, 0.0), DVec3::X, None);
-    let out = (25.0_f64 - 4.5 * 4.5).sqrt();
+    let out: f64 = Real::sqrt(25.0 - 4.5 * 4.5);
     near(found, &[7.0 - out, 7.0 + out, 13.0 - out, 13.0 + out]);
     // A horn has one point in the middle, which a ray through it does not enter.
     near(ends(&torus(1.0, 1.0), DVec3::Y * -10.0, DVec3::Y, None), &[]);
@@ -72,7 +72,7 @@ fn a_ray_from_the_surface_meets_only_the_rest() {
     near(ends(&ring, hole, DVec3::X, Some(false)), &[4.0, 6.0]);
     near(ends(&ring, hole, -DVec3::X, Some(true)), &[0.0, 2.0]);
     // Along the surface: into the tube beside the hole, and away from the equator.
-    let reach = 12.0_f64.sqrt();
+    let reach: f64 = Real::sqrt(12.0);
     near(ends(&ring, hole, DVec3::Z, Some(true)), &[0.0, reach]);
     near(ends(&ring, left, DVec3::Z, Some(false)), &[]);
     // From the tip of a spindle.
