@@ -231,6 +231,7 @@ impl SceneError {
             Flaw::NotFinite(field) => Self::NotFinite { at, field },
             Flaw::NotPositive(field) => Self::NotPositive { at, field },
             Flaw::TooLarge(field) => Self::TooLarge { at, field },
+            Flaw::OutOfRange(field, allowed) => Self::OutOfRange { at, field, allowed },
             Flaw::Empty(field) => Self::Empty { at, field },
             Flaw::Inverted(field) => Self::Inverted { at, field },
             Flaw::NotPlanar(field) => Self::NotPlanar { at, field },

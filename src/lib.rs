@@ -82,8 +82,13 @@ pub use place::{Affine, Placement};
 pub use ray::Ray;
 pub use render::{Depth, Pixel, Render, Step};
 pub use scalar::{Axis, Number, Real, Scalar, Vector};
-pub use scene::{Fixed, Form, Hit, Limits, Object, Parts, Scene, SceneBuilder, Storage, Store};
-pub use shape::{Cone, Cuboid, Cylinder, Plane, Polygon, Shape, Sphere, Tables, Torus, Triangle};
+pub use scene::{
+    Fixed, Form, Hit, Limits, Object, Parts, Profile, Scene, SceneBuilder, Storage, Store,
+};
+pub use shape::{
+    Cone, Cuboid, Curve, Cylinder, Filled, Lathe, Plane, Polygon, Prism, Shape, Sphere, Tables,
+    Torus, Triangle, Winding,
+};
 pub use solid::{Leaf, Node};
 pub use span::{Boundary, Operator, Passage, Spans};
 pub use stats::{Event, Stats, Tally};

@@ -4,7 +4,7 @@ mod form;
 mod paint;
 mod realise;
 
-pub use form::Form;
+pub use form::{Form, Profile};
 
 use super::check::check_object;
 use super::{Object, Parts, Scene};

@@ -130,6 +130,8 @@ fn last_point<S: Scalar>(shape: &Shape<S>) -> u32 {
             let last = *a.max(b).max(c);
             if *normals == Triangle::FLAT { last } else { last.max(normals.saturating_add(2)) }
         }
+        Shape::Lathe(lathe) => lathe.first.saturating_add(lathe.count.saturating_sub(1)),
+        Shape::Prism(prism) => prism.first.saturating_add(prism.count.saturating_sub(1)),
         Shape::Polygon(polygon) => polygon.first.saturating_add(polygon.count.saturating_sub(1)),
         _ => 0,
     }

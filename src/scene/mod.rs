@@ -5,7 +5,7 @@ mod check;
 mod structure;
 mod trace;
 
-pub use build::{Fixed, Form, SceneBuilder, Storage, Store};
+pub use build::{Fixed, Form, Profile, SceneBuilder, Storage, Store};
 pub use structure::{Structure, structure};
 pub use trace::Hit;
 

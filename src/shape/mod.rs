@@ -8,14 +8,20 @@
 //! | [`Cylinder`] | recentred, a disc in the plane across the axis, clipped by its caps |
 //! | [`Cone`] | recentred, the discriminant as a sum of squares; one nappe, clipped by its caps |
 //! | [`Torus`] | recentred, cut into monotone pieces by the derivative of its quartic, refined on its distance |
+//! | [`Lathe`] | pieces counted by the signs at their ends; frusta as cones, cubics by a polynomial of degree 6 |
+//! | [`Prism`] | edges counted by the sides of the ray on which their ends lie; clipped by its caps |
 //! | [`Triangle`] | watertight edge functions in the space of the ray |
 //! | [`Polygon`] | the same edge functions, counted along a half-line; concave allowed |
 
 mod cone;
+mod crossings;
 mod cuboid;
 mod cylinder;
+mod lathe;
+mod outline;
 mod plane;
 mod polygon;
+mod prism;
 mod sphere;
 mod torus;
 mod triangle;
@@ -23,8 +29,10 @@ mod triangle;
 pub use cone::Cone;
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
+pub use lathe::{Curve, Filled, Lathe};
 pub use plane::Plane;
 pub use polygon::Polygon;
+pub use prism::{Prism, Winding};
 pub use sphere::Sphere;
 pub use torus::Torus;
 pub use triangle::Triangle;
@@ -75,6 +83,8 @@ pub enum Flaw {
     NotPositive(&'static str),
     /// A parameter is beyond the legal range.
     TooLarge(&'static str),
+    /// A parameter is not what its meaning allows: which, and what is allowed.
+    OutOfRange(&'static str, &'static str),
     /// A direction or an extent has no length.
     Empty(&'static str),
     /// The upper bound lies below the lower one.
@@ -135,6 +145,10 @@ pub enum Shape<S: Scalar> {
     Cone(Cone<S>),
     /// A torus.
     Torus(Torus<S>),
+    /// A surface of revolution, closed or open.
+    Lathe(Lathe<S>),
+    /// An extruded polygon.
+    Prism(Prism<S>),
     /// A triangle, an open surface.
     Triangle(Triangle),
     /// A plane polygon, an open surface.
@@ -150,6 +164,8 @@ macro_rules! each {
             Shape::Cylinder($inner) => $body,
             Shape::Cone($inner) => $body,
             Shape::Torus($inner) => $body,
+            Shape::Lathe($inner) => $body,
+            Shape::Prism($inner) => $body,
             Shape::Triangle($inner) => $body,
             Shape::Polygon($inner) => $body,
         }
@@ -159,7 +175,11 @@ macro_rules! each {
 impl<S: Scalar> Shape<S> {
     /// A surface without an inside.
     pub const fn is_open(&self) -> bool {
-        matches!(self, Self::Triangle(_) | Self::Polygon(_))
+        match self {
+            Self::Triangle(_) | Self::Polygon(_) => true,
+            Self::Lathe(lathe) => lathe.is_open(),
+            _ => false,
+        }
     }
 
     /// The greatest number of spans along any ray.
@@ -169,6 +189,8 @@ impl<S: Scalar> Shape<S> {
                 1
             }
             Self::Torus(_) => 2,
+            Self::Lathe(lathe) => lathe.spans_max(),
+            Self::Prism(prism) => prism.spans_max(),
             Self::Triangle(_) | Self::Polygon(_) => 1,
         }
     }

@@ -10,7 +10,9 @@
 )]
 
 pub mod exact;
+pub mod revolve;
 pub mod ring;
+pub mod steps;
 pub mod subject;
 pub mod table;
 pub mod tori;

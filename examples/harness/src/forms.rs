@@ -1,19 +1,21 @@
 //! A shape of a document in the words of the scene builder.
 
-use nostray::{Form, Scalar};
+use nostray::{Form, Profile, Scalar};
 
 use crate::assemble::vector;
-use crate::document::Solid;
+use crate::document::{self, Solid};
 use crate::flaw::{Flaw, Path};
+use crate::written::Several;
 
 /// What a form borrows: the lists of a shape, in the number format of the scene.
 pub(crate) struct Stock<S: Scalar> {
     points: Vec<S::Vec3>,
+    pairs: Vec<[S; 2]>,
 }
 
 impl<S: Scalar> Default for Stock<S> {
     fn default() -> Self {
-        Self { points: Vec::new() }
+        Self { points: Vec::new(), pairs: Vec::new() }
     }
 }
 
@@ -45,6 +47,13 @@ impl<S: Scalar> Stock<S> {
                 let (center, axis) = (v(center), v(axis));
                 ("Torus", Form::Torus { center, axis, major: s(major), minor: s(minor) })
             }
+            Solid::Lathe { center, ref profile } => {
+                ("Lathe", Form::Lathe { center: v(center), profile: self.profile(profile) })
+            }
+            Solid::Prism { ref vertices, height } => {
+                let vertices = self.pairs(vertices);
+                ("Prism", Form::Prism { vertices, height: s(height) })
+            }
             Solid::Triangle { a, b, c, normals } => {
                 let normals = normals.map(|normals| normals.0.map(v));
                 ("Triangle", Form::Triangle { corners: [a, b, c].map(v), normals })
@@ -55,5 +64,18 @@ impl<S: Scalar> Stock<S> {
             }
             _ => return Err(Flaw::new(path, "is not a shape")),
         })
+    }
+
+    fn pairs(&mut self, written: &[Several<f64, 2>]) -> &[[S; 2]] {
+        self.pairs.extend(written.iter().map(|pair| pair.0.map(S::from_f64)));
+        &self.pairs
+    }
+
+    fn profile(&mut self, written: &document::Profile) -> Profile<'_, S> {
+        match written {
+            document::Profile::Linear(points) => Profile::Linear(self.pairs(points)),
+            document::Profile::Bezier(points) => Profile::Bezier(self.pairs(points)),
+            document::Profile::CatmullRom(points) => Profile::CatmullRom(self.pairs(points)),
+        }
     }
 }

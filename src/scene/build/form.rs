@@ -57,6 +57,20 @@ pub enum Form<'a, S: Scalar> {
         /// The radius of the tube; where it is greater than the other the solid is a filled spindle.
         minor: S,
     },
+    /// A surface of revolution about the y axis through a point.
+    Lathe {
+        /// The origin of the profile's plane.
+        center: S::Vec3,
+        /// What is turned about the axis.
+        profile: Profile<'a, S>,
+    },
+    /// A polygon in the plane of x and z, drawn out upward from there: a prism.
+    Prism {
+        /// The vertices, each an x and a z; in either order around.
+        vertices: &'a [[S; 2]],
+        /// The height, greater than 0.
+        height: S,
+    },
     /// A triangle, an open surface.
     Triangle {
         /// The corners, counterclockwise from outside.
@@ -69,4 +83,19 @@ pub enum Form<'a, S: Scalar> {
         /// The vertices, counterclockwise from outside.
         vertices: &'a [S::Vec3],
     },
+}
+
+/// The profile of a surface of revolution: points with their distance from the axis and their height. If it
+/// begins and ends on the axis, or begins where it ends, it makes a solid, and else an open surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Profile<'a, S> {
+    /// Points joined by lines.
+    Linear(&'a [[S; 2]]),
+    /// Cubic Bézier curves by their control points: the first point, and three more for each curve.
+    Bezier(&'a [[S; 2]]),
+    /// Points joined by a smooth curve, Catmull and Rom's uniform spline. It meets the axis at a right angle,
+    /// and goes smoothly on where it begins and ends in one place.
+    ///
+    /// Source: E. Catmull and R. Rom, "A class of local interpolating splines" (1974).
+    CatmullRom(&'a [[S; 2]]),
 }

@@ -1,6 +1,7 @@
 //! From a shape as people describe it to the shape that is stored, and its placement.
 
 mod flat;
+mod outline;
 mod torus;
 
 use super::{Form, SceneBuilder, Storage, Store, add_narrow};
@@ -59,6 +60,8 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
             Form::Torus { center, axis, major, minor } => {
                 self.realise_torus([center, axis], [major, minor], to_world)
             }
+            Form::Lathe { center, profile } => self.realise_lathe(center, profile, to_world),
+            Form::Prism { vertices, height } => self.realise_prism(vertices, height, to_world),
             Form::Triangle { corners, normals } => {
                 Ok((self.realise_triangle(corners, normals, to_world, &inverse)?, None))
             }

@@ -77,6 +77,21 @@ pub enum Solid {
         /// The radius of the tube.
         minor: f64,
     },
+    /// A surface of revolution about the y axis.
+    Lathe {
+        /// The origin of the profile's plane; that of the scene if left out.
+        #[serde(default)]
+        center: Triple,
+        /// What is turned about the axis.
+        profile: Profile,
+    },
+    /// A polygon in the plane of x and z, drawn out upward from there.
+    Prism {
+        /// The vertices, each an x and a z.
+        vertices: Vec<Several<f64, 2>>,
+        /// The height.
+        height: f64,
+    },
     /// A triangle, an open surface.
     Triangle {
         /// The first corner; the three are counterclockwise from outside.
@@ -112,6 +127,18 @@ pub enum Solid {
         #[serde(default)]
         place: Vec<Move>,
     },
+}
+
+/// The profile of a surface of revolution: points with their distance from the axis and their height.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Profile {
+    /// Points joined by lines.
+    Linear(Vec<Several<f64, 2>>),
+    /// The control points of cubic curves.
+    Bezier(Vec<Several<f64, 2>>),
+    /// Points joined by a smooth curve.
+    CatmullRom(Vec<Several<f64, 2>>),
 }
 
 /// One step of a placement.

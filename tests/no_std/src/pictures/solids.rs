@@ -2,8 +2,8 @@
 //! on both sides and its shadow is seen.
 
 use nostray::{
-    Affine, Axis, Blend, Fixed, Form, Fresnel, Material, Paint, Pattern, Rgb, Scalar, SceneBuilder,
-    SceneError, Stop, Texture,
+    Affine, Axis, Blend, Fixed, Form, Fresnel, Material, Paint, Pattern, Profile, Rgb, Scalar,
+    SceneBuilder, SceneError, Stop, Texture,
 };
 
 use super::{rgb, shoot, sun, tenths};
@@ -21,7 +21,10 @@ pub(super) fn trace<S: Scalar>(
     picture(shrink, sink, frustum)?;
     picture(shrink, sink, polygon)?;
     picture(shrink, sink, ring)?;
-    picture(shrink, sink, spindle)
+    picture(shrink, sink, spindle)?;
+    picture(shrink, sink, lines)?;
+    picture(shrink, sink, curves)?;
+    picture(shrink, sink, prism)
 }
 
 /// One picture. What a solid adds lies about the ball of radius 1 around the origin and has the
@@ -100,6 +103,31 @@ fn torus<S: Scalar>(
     let (center, axis) = (S::Vec3::default(), tenths::<S>(3, 10, 5));
     let [major, minor] = radii.map(|radius| S::from_ratio(radius, 10));
     scene.leaf(Form::Torus { center, axis, major, minor }, &Affine::identity(), material)
+}
+
+fn pairs<S: Scalar, const N: usize>(tenths: [(i32, i32); N]) -> [[S; 2]; N] {
+    tenths.map(|(a, b)| [S::from_ratio(a, 10), S::from_ratio(b, 10)])
+}
+
+/// A bowl of lines, upside down and aslant.
+fn lines<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneError> {
+    let spots = pairs([(0, -8), (4, -8), (10, 2), (10, 6), (8, 6), (8, 3), (3, -5), (0, -5)]);
+    let form = Form::Lathe { center: S::Vec3::default(), profile: Profile::Linear(&spots) };
+    scene.leaf(form, &turned(Axis::X, 140).then(&turned(Axis::Z, 20)), material)
+}
+
+/// A spinning top of curves.
+fn curves<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneError> {
+    let spots = pairs([(0, -10), (3, -6), (9, 0), (5, 3), (2, 6), (2, 9), (0, 10)]);
+    let form = Form::Lathe { center: S::Vec3::default(), profile: Profile::CatmullRom(&spots) };
+    scene.leaf(form, &turned(Axis::Z, -15), material)
+}
+
+/// A star that crosses itself.
+fn prism<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneError> {
+    let vertices = pairs([(0, 10), (6, -8), (-9, 3), (9, 3), (-6, -8)]);
+    let form = Form::Prism { vertices: &vertices, height: S::HALF };
+    scene.leaf(form, &turned(Axis::X, 60), material)
 }
 
 fn turned<S: Scalar>(axis: Axis, degrees: i32) -> Affine<S> {
