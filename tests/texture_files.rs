@@ -203,6 +203,9 @@ fn images_are_read_from_the_folder_of_the_scene() {
         output(&[&file(name, &text), "--size", "24x18", "--digest"])
     };
     let plain = digest("image.ron", "");
+    picture("small.jpg", image::ImageFormat::Jpeg);
+    let text = scene("Image(file: \"small.jpg\", mapping: Uv)");
+    assert_ne!(output(&[&file("jpeg.ron", &text), "--size", "24x18", "--digest"]), plain);
     for (n, fields) in [
         ", filter: Nearest",
         ", format: Grey8",

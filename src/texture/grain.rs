@@ -10,8 +10,9 @@ pub(super) fn wood<S: Scalar>([x, y, z]: [S; 3], wobble: S, stroke: &Stroke<S>) 
     if wobble == S::ZERO {
         return rings;
     }
-    // The grain runs along the trunk.
-    let along = S::Vec3::new(x * S::HALF, y * S::HALF.powi(3), z * S::HALF);
+    // Over a few rings the noise stays the same, and along the trunk over many more.
+    let (across, along) = (S::HALF.powi(2), S::HALF.powi(5));
+    let along = S::Vec3::new(x * across, y * along, z * across);
     rings + fbm(along, stroke.seed, &stroke.octaves) * wobble
 }
 

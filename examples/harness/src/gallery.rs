@@ -42,17 +42,25 @@ pub static GALLERY: &[Entry] = &[
     file!("checker", "checkers over surfaces and through solids, nested"),
     file!("dice", "three dice, each a rounded cube less 21 balls"),
     file!("glass", "a ball, a hollow ball, a block and a bowl of clear and coloured glass"),
+    file!("globe", "a world from a small image under clouds of noise, its moon, and stars"),
     file!("lens", "a reading glass over a printed page"),
     file!("lights", "a spot, a lamp and the moon; coloured glass stains the light"),
     file!("links", "three links that only hold together as three"),
     file!("mirrors", "two mirrors that face each other"),
+    file!(
+        "orange",
+        "oranges on oak planks: dents for a skin, wood in bricks, a gradient for the flesh"
+    ),
     file!("solids", "one of each solid"),
     Entry {
         name: "sphereflake",
         description: "91 mirroring spheres, made at run time",
         origin: Origin::Made(|| sphereflake(2)),
     },
+    file!("steel", "steel brushed along a plate, turned on a knob, blued on a bolt"),
+    file!("stone", "a hall of three marbles, with a granite plinth and a ball of agate"),
     file!("stress", "thin wires before a far planet, through a telescope of one degree"),
+    file!("water", "a lake that mirrors a sky of noise, with waves and the rings around a post"),
 ];
 
 /// The entry of a name.
