@@ -24,6 +24,7 @@ pub mod nff;
 pub mod output;
 pub mod raster;
 pub mod read;
+pub mod sheet;
 pub mod source;
 pub mod written;
 
