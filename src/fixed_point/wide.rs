@@ -44,12 +44,16 @@ impl Wide {
         if magnitude == 0 {
             return Self { mantissa: 0, exponent: 0 };
         }
-        let (mut magnitude, mut exponent) = if magnitude >> 63 != 0 {
-            ((magnitude >> 1) + (magnitude & 1), exponent + 1)
-        } else {
-            let shift = magnitude.leading_zeros() - 1;
-            (magnitude << shift, exponent - shift as i32)
-        };
+        if magnitude >> 63 != 0 {
+            return Self::settle(negative, (magnitude >> 1) + (magnitude & 1), exponent + 1);
+        }
+        let shift = magnitude.leading_zeros() - 1;
+        Self::settle(negative, magnitude << shift, exponent - shift as i32)
+    }
+
+    /// A magnitude of 2⁶² to 2⁶³, that included, with an exponent that may be out of range.
+    #[inline]
+    const fn settle(negative: bool, mut magnitude: u64, mut exponent: i32) -> Self {
         if magnitude >> 63 != 0 {
             (magnitude, exponent) = (LEAST, exponent + 1);
         }
@@ -209,8 +213,21 @@ impl Mul for Wide {
     type Output = Self;
     #[inline(never)]
     fn mul(self, other: Self) -> Self {
-        let (product, exponent) = self.product(other);
-        Self::from_long(product, exponent)
+        if self.mantissa == 0 || other.mantissa == 0 {
+            return Self::ZERO;
+        }
+        let negative = (self.mantissa < 0) != (other.mantissa < 0);
+        let magnitude = |x: Self| x.mantissa.unsigned_abs() as u128;
+        // Of 125 or 126 bits; 64 of them are looked at, and the last of these rounds.
+        let product = magnitude(self) * magnitude(other);
+        let (high, low) = ((product >> 64) as u64, product as u64);
+        let (top, shift) = if high >> 61 != 0 {
+            ((high << 2) | (low >> 62), 63)
+        } else {
+            ((high << 3) | (low >> 61), 62)
+        };
+        let exponent = self.exponent + other.exponent + shift;
+        Self::settle(negative, (top >> 1) + (top & 1), exponent)
     }
 }
 
@@ -304,6 +321,24 @@ impl Real for Wide {
         }
         let fraction = (kept >> carried) & ((1 << 52) - 1);
         f64::from_bits(sign | (biased as u64) << 52 | fraction)
+    }
+    #[inline]
+    fn nearest(self) -> i32 {
+        self.to_fixed(0, i32::MAX as i64) as i32
+    }
+    #[inline]
+    fn next_up(self) -> Self {
+        let Self { mantissa, exponent } = self;
+        match mantissa {
+            0 => Self { mantissa: LEAST as i64, exponent: -EXPONENT_MAX },
+            i64::MAX if exponent < EXPONENT_MAX => {
+                Self { mantissa: LEAST as i64, exponent: exponent + 1 }
+            }
+            i64::MAX => self,
+            // Nearer to 0 than a power of two the numbers stand twice as close.
+            _ if mantissa == -(LEAST as i64) => Self::from_parts(-i64::MAX, exponent - 1),
+            _ => Self { mantissa: mantissa + 1, exponent },
+        }
     }
     #[inline(never)]
     fn sqrt(self) -> Self {
