@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::camera::CameraFlaw;
-use crate::shape::Flaw;
+use crate::shape::{Flaw, ProgramFlaw};
 use crate::span::Operator;
 
 /// A part of a scene, by its place in its table.
@@ -191,6 +191,15 @@ pub enum SceneError {
         /// The operator.
         operator: Operator,
     },
+    /// The program of an implicit solid is not one formula.
+    Program {
+        /// The leaf.
+        at: Item,
+        /// The operation, by its place among the bytes of the program.
+        byte: u32,
+        /// What is wrong there.
+        what: &'static str,
+    },
     /// Stated bounds do not hold their object.
     BoundsTooSmall {
         /// The object.
@@ -238,6 +247,8 @@ impl SceneError {
             Flaw::OffCentre(field) => Self::OffCentre { at, field },
             Flaw::Placed(_) => Self::Placed { at },
             Flaw::Index(_) => Self::IndexOutOfRange { at, table: "points", index, len },
+            Flaw::Beyond { table, index, len } => Self::IndexOutOfRange { at, table, index, len },
+            Flaw::Program(ProgramFlaw { byte, what }) => Self::Program { at, byte, what },
         }
     }
 
@@ -299,6 +310,9 @@ impl fmt::Display for SceneError {
             }
             Self::OpenSurface { at, operator } => {
                 write!(f, "{at}: an open surface has no inside, as {operator:?} would need")
+            }
+            Self::Program { at, byte, what } => {
+                write!(f, "{at}: byte {byte} of the program {what}")
             }
             Self::BoundsTooSmall { at } => write!(f, "{at}: the stated bounds do not hold it"),
             Self::StackTooSmall { depth_max, limit } => {

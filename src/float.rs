@@ -84,6 +84,15 @@ macro_rules! float {
                 self.into()
             }
             #[inline]
+            fn nearest(self) -> i32 {
+                // The cast drops what is behind the point, and saturates.
+                (if self < 0.0 { self - 0.5 } else { self + 0.5 }) as i32
+            }
+            #[inline]
+            fn next_up(self) -> Self {
+                $float::next_up(self)
+            }
+            #[inline]
             fn sqrt(self) -> Self {
                 if self > 0.0 { $math::sqrt(self) } else { 0.0 }
             }
@@ -149,11 +158,6 @@ macro_rules! float {
             fn floor(self) -> Self {
                 $math::floor(self)
             }
-            #[inline]
-            fn next_up(self) -> Self {
-                $float::next_up(self)
-            }
-
             #[inline]
             fn widen(self) -> Self {
                 self

@@ -129,23 +129,35 @@ impl<T: Real> Sample<T> {
 }
 
 /// The parameter between two places of different sign at which a function, given with its slope,
-/// changes its sign: Newton's steps where they stay in the bracket and shrink to 5/8, bisection
-/// otherwise. [`STEPS_MAX`] evaluations at most. A quick step of a few roundings of the greater end
-/// is the last one.
+/// changes its sign.
 #[inline]
 fn refine<T: Real>(from: &Sample<T>, to: &Sample<T>, f: impl Fn(T) -> [T; 2]) -> T {
-    let (mut low, mut high) = (from.t, to.t);
     if from.value == T::ZERO {
-        return low;
+        from.t
     } else if to.value == T::ZERO {
-        return high;
+        to.t
+    } else {
+        bracketed([from.t, to.t], (from.negative, from.guess(to)), T::ZERO, f)
     }
+}
+
+/// The parameter between two at which a function, given with its slope, is known to change its sign;
+/// told whether it is negative at the first, and where to look first: Newton's steps where they stay in the
+/// bracket and shrink to 5/8, bisection otherwise. [`STEPS_MAX`] evaluations at most. A quick step
+/// of a few roundings of the greater end is the last one, and so is any that is not longer than `enough`.
+#[inline]
+pub(crate) fn bracketed<T: Real>(
+    [mut low, mut high]: [T; 2],
+    (negative, guess): (bool, T),
+    enough: T,
+    f: impl Fn(T) -> [T; 2],
+) -> T {
     let middle = |low: T, high: T| low + (high - low) * T::HALF;
     let eighth = T::HALF * T::HALF * T::HALF;
     let size = low.squared().max(high.squared());
     let near = T::EPSILON * size;
     let fine = T::EPSILON * near * T::from_i32(64);
-    let (mut t, mut moved) = (from.guess(to), high - low);
+    let (mut t, mut moved) = (guess, high - low);
     if !(low < t && t < high) {
         t = middle(low, high);
     }
@@ -153,7 +165,7 @@ fn refine<T: Real>(from: &Sample<T>, to: &Sample<T>, f: impl Fn(T) -> [T; 2]) ->
     let (mut newtonian, mut quick) = (false, false);
     for step in 0..STEPS_MAX {
         let [value, slope] = f(t);
-        if (value < T::ZERO) == from.negative {
+        if (value < T::ZERO) == negative {
             low = t;
         } else {
             high = t;
@@ -171,7 +183,7 @@ fn refine<T: Real>(from: &Sample<T>, to: &Sample<T>, f: impl Fn(T) -> [T; 2]) ->
         if shrinks && low <= next && next <= high && step < NEWTON_MAX {
             quick = newtonian && newton <= moved * eighth;
             (t, moved, newtonian) = (next, newton, true);
-            if quick && newton.squared() <= fine {
+            if newton <= enough || (quick && newton.squared() <= fine) {
                 break;
             }
         } else {

@@ -202,6 +202,14 @@ macro_rules! real {
                 self.widen().to_f64()
             }
             #[inline]
+            fn nearest(self) -> i32 {
+                Real::nearest(self.widen())
+            }
+            #[inline]
+            fn next_up(self) -> Self {
+                Self::from_bits(self.to_bits().saturating_add(1))
+            }
+            #[inline]
             fn sqrt(self) -> Self {
                 if self.to_bits() <= 0 {
                     return Self::ZERO;

@@ -64,10 +64,6 @@ macro_rules! scalar {
             fn floor(self) -> Self {
                 Self::from_bits(self.to_bits() >> $fraction << $fraction)
             }
-            #[inline]
-            fn next_up(self) -> Self {
-                Self::from_bits(self.to_bits().saturating_add(1))
-            }
 
             #[inline]
             fn widen(self) -> Wide {

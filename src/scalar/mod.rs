@@ -115,6 +115,15 @@ pub trait Real: Number + Div<Output = Self> {
     fn from_f64(x: f64) -> Self;
     /// The value, exactly where `f64` can hold it.
     fn to_f64(self) -> f64;
+    /// The nearest whole number, ties away from 0, saturating at the ends of `i32`.
+    fn nearest(self) -> i32;
+    /// The next larger number.
+    fn next_up(self) -> Self;
+    /// The next smaller number.
+    #[inline]
+    fn next_down(self) -> Self {
+        -(-self).next_up()
+    }
     /// The square root, correctly rounded; 0 for negative numbers.
     fn sqrt(self) -> Self;
     /// The rounded sum of two numbers and what was rounded away, exactly; of a number in fixed
@@ -192,8 +201,6 @@ pub trait Scalar: Real + Display {
     fn floor_i64(self) -> i64;
     /// `⌊self⌋` in the same format.
     fn floor(self) -> Self;
-    /// The next larger number.
-    fn next_up(self) -> Self;
 
     /// The same number, for a long formula.
     fn widen(self) -> Self::Wide;

@@ -184,7 +184,7 @@ impl<'a, S: Scalar> Scene<'a, S> {
         let sight = self.geometry().sight(node, leaf, line);
         let open = leaf.shape.is_open();
         let (mut inside, mut first) = (false, None);
-        leaf.shape.spans(&sight, |span| {
+        leaf.shape.spans_until(&sight, before, |span| {
             let mut offer = |end: End<S>, passage: Passage| {
                 if end.t > after && end.t < before && first.is_none() {
                     let End { t, face } = end;

@@ -76,7 +76,7 @@ impl<S: Scalar> Cuboid<S> {
 
     /// The same in coordinates of its own, in the parameter of the local ray.
     #[inline]
-    fn placed_crossing(&self, ray: &Local<S>) -> Option<Span<S::Wide>> {
+    pub(super) fn placed_crossing(&self, ray: &Local<S>) -> Option<Span<S::Wide>> {
         let mut span = Span::whole();
         for axis in Axis::ALL {
             let origin = ray.origin.get(axis);
@@ -108,25 +108,25 @@ impl<S: Scalar> Cuboid<S> {
         })
     }
 
-    /// The span of a ray from a face to its inner side: it ends at the nearest side ahead,
-    /// and is never empty.
-    fn exit(&self, origin: S::Vec3, dir: S::WideVec, face: u32) -> Span<S> {
-        let mut exit = End { t: S::Wide::FAR, face };
+    /// Where a ray from a point of the box meets the nearest side ahead, other than the face that
+    /// it starts on; t may be 0 or less by rounding.
+    #[inline]
+    pub(super) fn way_out(&self, ray: &Local<S>, from: Option<u32>) -> End<S::Wide> {
+        let mut exit = End { t: S::Wide::FAR, face: from.unwrap_or(0) };
         for axis in Axis::ALL {
             let (low_face, high_face) = faces(axis);
-            let (o, d) = (origin.get(axis), dir.get(axis));
+            let (o, d) = (ray.origin.get(axis), ray.dir.get(axis));
             let (side, ahead) = if d < S::Wide::ZERO {
                 (self.min.get(axis), low_face)
             } else {
                 (self.max.get(axis), high_face)
             };
-            let t = (side - o).widen() / d;
-            if d != S::Wide::ZERO && ahead != face && t < exit.t {
+            let t = (side.widen() - o) / d;
+            if d != S::Wide::ZERO && Some(ahead) != from && t < exit.t {
                 exit = End { t, face: ahead };
             }
         }
-        let exit = End { t: S::narrow(exit.t).max(S::TINY), face: exit.face };
-        Span { enter: End { t: S::ZERO, face }, exit }
+        exit
     }
 }
 
@@ -177,8 +177,11 @@ impl<S: Scalar> Primitive<S> for Cuboid<S> {
         let line = sight.line;
         if let Some(start) = sight.start {
             if start.inward {
-                let dir = Local::from_surface(line, sight.place, start.local).dir;
-                emit(self.exit(start.local, dir, start.face));
+                // It is never empty.
+                let ray = Local::from_surface(line, sight.place, start.local);
+                let End { t, face } = self.way_out(&ray, Some(start.face));
+                let exit = End { t: S::narrow(t).max(S::TINY), face };
+                emit(Span { enter: End { t: S::ZERO, face: start.face }, exit });
             }
             return;
         }

@@ -12,11 +12,13 @@
 //! | [`Prism`] | edges counted by the sides of the ray on which their ends lie; clipped by its caps |
 //! | [`Triangle`] | watertight edge functions in the space of the ray |
 //! | [`Polygon`] | the same edge functions, counted along a half-line; concave allowed |
+//! | [`Implicit`] | intervals of the formula and of its slope, halved until each proves its roots |
 
 mod cone;
 mod crossings;
 mod cuboid;
 mod cylinder;
+mod implicit;
 mod lathe;
 mod outline;
 mod plane;
@@ -29,6 +31,7 @@ mod triangle;
 pub use cone::Cone;
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
+pub use implicit::{Implicit, ProgramFlaw, program};
 pub use lathe::{Curve, Filled, Lathe};
 pub use plane::Plane;
 pub use polygon::Polygon;
@@ -97,6 +100,17 @@ pub enum Flaw {
     OffCentre(&'static str),
     /// The shape is given in the scene's coordinates and takes no placement.
     Placed(&'static str),
+    /// An index lies beyond the end of a table.
+    Beyond {
+        /// Which table.
+        table: &'static str,
+        /// The index.
+        index: u32,
+        /// The entries of the table.
+        len: u32,
+    },
+    /// A program is not a formula.
+    Program(ProgramFlaw),
 }
 
 /// What every solid can tell. Local coordinates are the scene's, moved to [`centre`](Self::centre),
@@ -117,6 +131,12 @@ pub trait Primitive<S: Scalar> {
     /// A ray in a flat face is inside; one that only touches a curved side or an edge is not.
     /// A component of the direction whose reciprocal is infinite counts as 0.
     fn spans(&self, sight: &Sight<'_, S>, emit: impl FnMut(Span<S>));
+    /// The same, but only the boundaries up to `until` are asked for: of what lies beyond it is
+    /// enough that it lies beyond. Where boundaries are dear, what is left out is work.
+    #[inline]
+    fn spans_until(&self, sight: &Sight<'_, S>, _: S, emit: impl FnMut(Span<S>)) {
+        self.spans(sight, emit);
+    }
     /// The point of a face nearest to a local point close to it.
     fn snap(&self, local: S::WideVec, face: u32, tables: &Tables<'_, S>) -> S::Vec3;
     /// The outward normal at a local point of a face, not of unit length; never zero.
@@ -153,6 +173,8 @@ pub enum Shape<S: Scalar> {
     Triangle(Triangle),
     /// A plane polygon, an open surface.
     Polygon(Polygon<S>),
+    /// Where a formula is less than 0, within a box.
+    Implicit(Implicit<S>),
 }
 
 macro_rules! each {
@@ -168,6 +190,7 @@ macro_rules! each {
             Shape::Prism($inner) => $body,
             Shape::Triangle($inner) => $body,
             Shape::Polygon($inner) => $body,
+            Shape::Implicit($inner) => $body,
         }
     };
 }
@@ -192,6 +215,7 @@ impl<S: Scalar> Shape<S> {
             Self::Lathe(lathe) => lathe.spans_max(),
             Self::Prism(prism) => prism.spans_max(),
             Self::Triangle(_) | Self::Polygon(_) => 1,
+            Self::Implicit(implicit) => implicit.spans,
         }
     }
 
@@ -221,10 +245,17 @@ impl<S: Scalar> Shape<S> {
     /// A component of the direction whose reciprocal is infinite counts as 0. No span is empty:
     /// one that is shorter than the numbers are apart ends at the next number.
     #[inline]
-    pub fn spans(&self, sight: &Sight<'_, S>, mut emit: impl FnMut(Span<S>)) {
+    pub fn spans(&self, sight: &Sight<'_, S>, emit: impl FnMut(Span<S>)) {
+        self.spans_until(sight, S::FAR, emit);
+    }
+
+    /// The same, but only the boundaries up to `until` are asked for: others may be missing, or lie
+    /// elsewhere beyond it.
+    #[inline]
+    pub fn spans_until(&self, sight: &Sight<'_, S>, until: S, mut emit: impl FnMut(Span<S>)) {
         let open = self.is_open();
         let emit = |span: Span<S>| emit(if open { span } else { span.solid() });
-        each!(self, shape => Primitive::<S>::spans(shape, sight, emit));
+        each!(self, shape => Primitive::<S>::spans_until(shape, sight, until, emit));
     }
 
     /// The point of a face nearest to a local point close to it.

@@ -10,8 +10,11 @@
 )]
 
 pub mod exact;
+pub mod field;
 pub mod revolve;
 pub mod ring;
+pub mod scan;
+pub mod starts;
 pub mod steps;
 pub mod subject;
 pub mod table;

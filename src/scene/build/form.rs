@@ -83,6 +83,21 @@ pub enum Form<'a, S: Scalar> {
         /// The vertices, counterclockwise from outside.
         vertices: &'a [S::Vec3],
     },
+    /// Where a formula is less than 0, within a box.
+    Implicit {
+        /// The least corner of the box.
+        min: S::Vec3,
+        /// The greatest corner of the box.
+        max: S::Vec3,
+        /// The formula, as a [program](crate::shape::program).
+        code: &'a [u8],
+        /// The numbers of the program.
+        numbers: &'a [S],
+        /// The most spans along a ray. Without it the bound that follows from the degrees of
+        /// the polynomials that the formula is made of, where it is made of polynomials. Where there
+        /// would be more, the last one goes on to the last exit.
+        spans: Option<u16>,
+    },
 }
 
 /// The profile of a surface of revolution: points with their distance from the axis and their height. If it

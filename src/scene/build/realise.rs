@@ -1,8 +1,11 @@
 //! From a shape as people describe it to the shape that is stored, and its placement.
 
 mod flat;
+mod implicit;
 mod outline;
 mod torus;
+
+use implicit::Formula;
 
 use super::{Form, SceneBuilder, Storage, Store, add_narrow};
 use crate::error::{Item, SceneError};
@@ -66,6 +69,10 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
                 Ok((self.realise_triangle(corners, normals, to_world, &inverse)?, None))
             }
             Form::Polygon { vertices } => Ok((self.realise_polygon(vertices, to_world)?, None)),
+            Form::Implicit { min, max, code, numbers, spans } => {
+                let formula = Formula { corners: [min, max], code, numbers, spans };
+                self.realise_implicit(&formula, to_world)
+            }
         }
     }
 

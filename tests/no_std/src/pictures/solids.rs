@@ -24,7 +24,8 @@ pub(super) fn trace<S: Scalar>(
     picture(shrink, sink, spindle)?;
     picture(shrink, sink, lines)?;
     picture(shrink, sink, curves)?;
-    picture(shrink, sink, prism)
+    picture(shrink, sink, prism)?;
+    picture(shrink, sink, implicit)
 }
 
 /// One picture. What a solid adds lies about the ball of radius 1 around the origin and has the
@@ -132,4 +133,22 @@ fn prism<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneEr
 
 fn turned<S: Scalar>(axis: Axis, degrees: i32) -> Affine<S> {
     Affine::rotate(axis, S::from_i32(degrees))
+}
+
+/// A cube joined smoothly with a torus, less a wave.
+fn implicit<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneError> {
+    use nostray::shape::program::{
+        ABS, ADD, MAX, MUL, NUMBER, POWER, ROOT, SIN, SMOOTH_MIN, SQUARE, SUB, X, Y, Z,
+    };
+    const CODE: &[u8] = &[
+        X, POWER, 4, Y, POWER, 4, ADD, Z, POWER, 4, ADD, NUMBER, 0, SUB, // the cube
+        X, SQUARE, Y, SQUARE, ADD, ROOT, NUMBER, 1, SUB, SQUARE, Z, SQUARE, ADD, ROOT, NUMBER, 2,
+        SUB, SMOOTH_MIN, 3, //
+        X, NUMBER, 4, MUL, SIN, ABS, NUMBER, 5, SUB, MAX,
+    ];
+    let numbers = [(1, 10), (8, 10), (2, 10), (3, 10), (9, 1), (19, 20)];
+    let numbers = numbers.map(|(n, d)| S::from_ratio(n, d));
+    let (min, max) = (tenths::<S>(-11, -11, -11), tenths::<S>(11, 11, 4));
+    let form = Form::Implicit { min, max, code: CODE, numbers: &numbers, spans: Some(8) };
+    scene.leaf(form, &turned(Axis::Y, 30), material)
 }
