@@ -65,6 +65,21 @@ const BAD_SOLIDS: &[(&str, &str, &str)] = &[
         "Triangle(a: (0, 0, 0), b: (1, 1, 1), c: (2, 2, 2))",
         "objects[0].solid.Triangle: the corners lie on one line",
     ),
+    (
+        "formula",
+        "Implicit(min: (-1, -1, -1), max: (1, 1, 1), expr: \"x^2 +\n foo(y)\")",
+        "objects[0].solid.Implicit.expr: line 2, column 2 of the formula: there is no function \"foo\"",
+    ),
+    (
+        "formula-spans",
+        "Implicit(min: (-1, -1, -1), max: (1, 1, 1), expr: \"sin(x)\")",
+        ":2:59: objects[0].solid.Implicit: needs the field `spans`",
+    ),
+    (
+        "formula-box",
+        "Implicit(min: (-1, -1, -1), max: (1, -2, 1), expr: \"x\")",
+        "objects[0].solid.Implicit.max: lies below",
+    ),
     ("empty", "Union([])", "objects[0].solid.Union: has 0 operands"),
     ("inside-out", "Box(min: (0, 0, 0), max: (1, -1, 1))", "objects[0].solid.Box.max: "),
     (

@@ -1,9 +1,11 @@
 //! A shape of a document in the words of the scene builder.
 
+use nostray::shape::program;
 use nostray::{Form, Profile, Scalar};
 
 use crate::assemble::vector;
 use crate::document::{self, Solid};
+use crate::expression::{Program, compile};
 use crate::flaw::{Flaw, Path};
 use crate::written::Several;
 
@@ -11,11 +13,18 @@ use crate::written::Several;
 pub(crate) struct Stock<S: Scalar> {
     points: Vec<S::Vec3>,
     pairs: Vec<[S; 2]>,
+    numbers: Vec<S>,
+    code: Vec<u8>,
 }
 
 impl<S: Scalar> Default for Stock<S> {
     fn default() -> Self {
-        Self { points: Vec::new(), pairs: Vec::new() }
+        Self {
+            points: Vec::new(),
+            pairs: Vec::new(),
+            numbers: Vec::new(),
+            code: Vec::new(),
+        }
     }
 }
 
@@ -62,6 +71,11 @@ impl<S: Scalar> Stock<S> {
                 self.points.extend(written.iter().map(|&vertex| v(vertex)));
                 ("Polygon", Form::Polygon { vertices: &self.points })
             }
+            Solid::Implicit { min, max, ref expr, spans } => {
+                self.compile(expr, spans, &path.field("Implicit"))?;
+                let (min, max, code, numbers) = (v(min), v(max), &self.code, &self.numbers);
+                ("Implicit", Form::Implicit { min, max, code, numbers, spans })
+            }
             _ => return Err(Flaw::new(path, "is not a shape")),
         })
     }
@@ -77,5 +91,21 @@ impl<S: Scalar> Stock<S> {
             document::Profile::Bezier(points) => Profile::Bezier(self.pairs(points)),
             document::Profile::CatmullRom(points) => Profile::CatmullRom(self.pairs(points)),
         }
+    }
+
+    /// Takes the program of a formula, which must tell how many spans there may be or be told.
+    fn compile(&mut self, expr: &str, spans: Option<u16>, path: &Path<'_>) -> Result<(), Flaw> {
+        let field = path.field("expr");
+        let Program { code, numbers } =
+            compile(expr).map_err(|flaw| Flaw::new(&field, flaw.to_string()))?;
+        let bound = program::spans_bound(&code);
+        if spans.is_none() && bound.is_none_or(|bound| bound > u32::from(u16::MAX)) {
+            let message = "needs the field `spans`, how often a ray may be inside at most: the \
+                           formula is not made of polynomials of low degree alone";
+            return Err(Flaw::new(path, message));
+        }
+        self.numbers.extend(numbers.iter().map(|&number| S::from_f64(number)));
+        self.code = code;
+        Ok(())
     }
 }

@@ -43,6 +43,7 @@ pub static GALLERY: &[Entry] = &[
     file!("dice", "three dice, each a rounded cube less 21 balls"),
     file!("glass", "a ball, a hollow ball, a block and a bowl of clear and coloured glass"),
     file!("globe", "a world from a small image under clouds of noise, its moon, and stars"),
+    file!("gyroid", "a ball cut from a shell that parts space into two equal mazes"),
     file!("lens", "a reading glass over a printed page"),
     file!("lights", "a spot, a lamp and the moon; coloured glass stains the light"),
     file!("links", "three links that only hold together as three"),

@@ -2,6 +2,7 @@
 //! scene files, a gallery, pictures as files, and the commands `render` and `probe`.
 
 mod assemble;
+mod expression;
 mod failure;
 mod flaw;
 mod forms;

@@ -130,6 +130,7 @@ fn item(error: &SceneError) -> Option<Item> {
         | SceneError::TooDeep { at, .. }
         | SceneError::SpanOverflow { at, .. }
         | SceneError::OpenSurface { at, .. }
+        | SceneError::Program { at, .. }
         | SceneError::BoundsTooSmall { at }
         | SceneError::Unbalanced { at } => Some(at),
         _ => None,

@@ -155,7 +155,7 @@ impl<'a, S: Scalar> Planter<'a, S> {
     ) -> Result<(), Flaw> {
         let point = match *form {
             Form::Sphere { center, .. } => center,
-            Form::Box { min, .. } => min,
+            Form::Box { min, .. } | Form::Implicit { min, .. } => min,
             Form::Cylinder { base, .. } | Form::Cone { base, .. } => base,
             _ => S::Vec3::ZERO,
         };

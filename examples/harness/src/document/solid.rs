@@ -106,6 +106,22 @@ pub enum Solid {
     },
     /// A plane polygon, an open surface: vertices counterclockwise from outside.
     Polygon(Vec<Triple>),
+    /// Where a formula of x, y and z is less than 0, within a box.
+    Implicit {
+        /// The least coordinates of the box.
+        min: Triple,
+        /// The greatest coordinates of the box.
+        max: Triple,
+        /// The formula: `x`, `y`, `z`, `pi` and numbers; `+ − * /`, `^` with a whole exponent,
+        /// brackets; `sqrt`, `abs`, `sin`, `cos`, `length`, `min`, `max`, `pow(a, e)` for the magnitude of a to the
+        /// power e; `smin(a, b, k)` and `smax(a, b, k)`, rounded off where a and b differ by less than k.
+        expr: String,
+        /// The most spans along a ray: where there would be more, the last one goes on to the last exit.
+        /// What follows from the degrees of the polynomials in the formula if left out; with
+        /// roots, sines, real powers and divisors that are no numbers it must be given.
+        #[serde(default, deserialize_with = "present")]
+        spans: Option<u16>,
+    },
     /// In any of them.
     Union(Vec<Self>),
     /// In all of them.
