@@ -355,10 +355,10 @@ fn spans_beyond_those_declared_are_joined() {
         spans.boundaries.iter().map(|b| b.t - 20.0).collect()
     };
     let all = ends(8);
-    assert_eq!(all.len(), 6, "{all:?}");
-    assert_eq!(ends(3), all);
-    assert_eq!(ends(2), [all[0], all[1], all[2], all[5]]);
-    assert_eq!(ends(1), [all[0], all[5]]);
+    assert_eq!(all.len(), 8, "{all:?}");
+    assert_eq!(ends(4), all);
+    assert_eq!(ends(2), [all[0], all[1], all[2], all[7]]);
+    assert_eq!(ends(1), [all[0], all[7]]);
 }
 
 #[test]
