@@ -199,7 +199,7 @@ impl<T: Real> Algebra for Interval<T> {
         // Each of the products may round once, at half a step.
         let steps = T::from_i32(n.min(255) as i32);
         let power = |part: Self| part.growing(steps, |x| x.powi(n));
-        if n % 2 == 0 {
+        if n & 1 == 0 {
             return power(self.magnitude());
         }
         let positive = power(Self { low: self.low.max(T::ZERO), high: self.high.max(T::ZERO) });

@@ -24,15 +24,15 @@ pub fn spans(
     for i in 1..=samples {
         let (a, b) = (values[i as usize - 1], values[i as usize]);
         if (a < 0.0) != (b < 0.0) {
-            changes.push(bisect(&f, [at(i - 1), at(i)]));
+            changes.push(bisect(f, [at(i - 1), at(i)]));
         }
         let Some(&c) = values.get(i as usize + 1) else { continue };
         let one_side = (a < 0.0) == (b < 0.0) && (b < 0.0) == (c < 0.0);
         if one_side && b.abs() <= a.abs() && b.abs() <= c.abs() {
-            let dip = nearest_to_zero(&f, [at(i - 1), at(i + 1)]);
+            let dip = nearest_to_zero(f, [at(i - 1), at(i + 1)]);
             if (f(dip) < 0.0) != (b < 0.0) {
-                changes.push(bisect(&f, [at(i - 1), dip]));
-                changes.push(bisect(&f, [dip, at(i + 1)]));
+                changes.push(bisect(f, [at(i - 1), dip]));
+                changes.push(bisect(f, [dip, at(i + 1)]));
             }
         }
     }

@@ -19,12 +19,7 @@ pub(crate) struct Stock<S: Scalar> {
 
 impl<S: Scalar> Default for Stock<S> {
     fn default() -> Self {
-        Self {
-            points: Vec::new(),
-            pairs: Vec::new(),
-            numbers: Vec::new(),
-            code: Vec::new(),
-        }
+        Self { points: Vec::new(), pairs: Vec::new(), numbers: Vec::new(), code: Vec::new() }
     }
 }
 
@@ -97,7 +92,7 @@ impl<S: Scalar> Stock<S> {
     fn compile(&mut self, expr: &str, spans: Option<u16>, path: &Path<'_>) -> Result<(), Flaw> {
         let field = path.field("expr");
         let Program { code, numbers } =
-            compile(expr).map_err(|flaw| Flaw::new(&field, flaw.to_string()))?;
+            compile(expr).map_err(|flaw| Flaw::new(field, flaw.to_string()))?;
         let bound = program::spans_bound(&code);
         if spans.is_none() && bound.is_none_or(|bound| bound > u32::from(u16::MAX)) {
             let message = "needs the field `spans`, how often a ray may be inside at most: the \

@@ -3,6 +3,7 @@
 use nostray::shape::program::{
     ABS, ADD, COS, DIV, MAX, MIN, MUL, NEG, ROOT, SIN, SQUARE, SUB, X, Y, Z,
 };
+use nostray::{Number, Real};
 
 use super::{Formula, NoFormula};
 
@@ -102,7 +103,7 @@ impl<'a> Reader<'a> {
         }
         self.skip_space();
         let at = self.at;
-        let exponent = self.number()?.filter(|e| e.fract() == 0.0 && (1.0..=255.0).contains(e));
+        let exponent = self.number()?.filter(|e| *e >= 1.0 && f64::from(*e as u8) == *e);
         match exponent {
             Some(exponent) => Ok(Formula::power(base, exponent as u8)),
             None => {
@@ -241,9 +242,9 @@ impl Formula {
             (NEG, Self::Unary(NEG, a)) => *a,
             (ABS, Self::Number(a)) => Self::Number(a.abs()),
             (SQUARE, Self::Number(a)) => Self::Number(a * a),
-            (ROOT, Self::Number(a)) => Self::Number(a.max(0.0).sqrt()),
-            (SIN, Self::Number(a)) => Self::Number(a.sin()),
-            (COS, Self::Number(a)) => Self::Number(a.cos()),
+            (ROOT, Self::Number(a)) => Self::Number(Real::sqrt(a)),
+            (SIN, Self::Number(a)) => Self::Number(Real::sin_cos(a).0),
+            (COS, Self::Number(a)) => Self::Number(Real::sin_cos(a).1),
             (_, a) => Self::Unary(operation, Box::new(a)),
         }
     }
@@ -254,8 +255,8 @@ impl Formula {
             (SUB, Self::Number(a), Self::Number(b)) => Self::Number(a - b),
             (MUL, Self::Number(a), Self::Number(b)) => Self::Number(a * b),
             (DIV, Self::Number(a), Self::Number(b)) if b != 0.0 => Self::Number(a / b),
-            (MIN, Self::Number(a), Self::Number(b)) => Self::Number(a.min(b)),
-            (MAX, Self::Number(a), Self::Number(b)) => Self::Number(a.max(b)),
+            (MIN, Self::Number(a), Self::Number(b)) => Self::Number(Number::min(a, b)),
+            (MAX, Self::Number(a), Self::Number(b)) => Self::Number(Number::max(a, b)),
             // Whose square is never negative, which a product does not know.
             (MUL, a, b) if a == b => Self::unary(SQUARE, a),
             (_, a, b) => Self::Binary(operation, Box::new([a, b])),
@@ -266,14 +267,14 @@ impl Formula {
         match (a, n) {
             (a, 1) => a,
             (a, 2) => Self::unary(SQUARE, a),
-            (Self::Number(a), n) => Self::Number(a.powi(n.into())),
+            (Self::Number(a), n) => Self::Number(Number::powi(a, n.into())),
             (a, n) => Self::Power(n, Box::new(a)),
         }
     }
 
     fn real_power(a: Self, e: f64) -> Self {
         match a {
-            Self::Number(a) => Self::Number(a.abs().powf(e)),
+            Self::Number(a) => Self::Number(Real::pow(a.abs(), e)),
             a => Self::RealPower(Box::new(a), e),
         }
     }

@@ -1,4 +1,5 @@
 //! Formulas become the programs that they say, or errors that tell where.
+#![allow(clippy::disallowed_methods, reason = "a test of values need not be the same to the bit")]
 
 use nostray::shape::program::{
     ABS, ADD, COPY, COS, DIV, MAX, MIN, MUL, NEG, NUMBER, POWER, REAL_POWER, ROOT, SIN, SMOOTH_MIN,
