@@ -59,7 +59,7 @@ def sysroot(target):
                    "-Zbuild-std=core,compiler_builtins",
                    "-Zbuild-std-features=compiler-builtins-mem"]
         env = environment("-Cembed-bitcode=yes -Zemit-stack-sizes -Zplt=yes", folder / "build")
-        if run(command, log, cwd=folder, env=env) != 0:
+        if run("core library", command, log, cwd=folder, env=env) != 0:
             raise Failure("the core library does not build", log)
         library = folder / "lib" / "rustlib" / target / "lib"
         library.mkdir(parents=True)
@@ -74,8 +74,8 @@ def sysroot(target):
 
 
 def seed(folder, profile):
-    """Puts what runs while others are compiled (macros and build scripts, the same for all
-    targets) into a folder, so that it is not compiled for each anew."""
+    """Puts the one large thing that runs while others are compiled, a macro that is the same for all
+    targets, into a folder, so that it is not compiled for each anew."""
     name = "debug" if profile == "dev" else profile
     if (folder / name).exists():
         return
@@ -87,11 +87,11 @@ def seed(folder, profile):
         if not (made / name).exists():
             made.mkdir(parents=True, exist_ok=True)
             triple = text_of(rustc, "--print", "host-tuple").strip()
-            command = [cargo, "build", "--quiet", "--lib", "--profile", profile, "--target", triple]
-            log = made / f"{profile}.log"
-            if run(command, log, env=environment("", made)) != 0:
-                raise Failure("does not build for the host", log)
-            shutil.rmtree(made / triple)
+            command = [cargo, "build", "--quiet", "--package", "zerocopy-derive", "--profile", profile,
+                       "--target", triple]
+            # Where it fails there is no such macro, or each row will say what is wrong.
+            run("macros", command, made / f"{profile}.log", env=environment("", made))
+            (made / name).mkdir(exist_ok=True)
     # Hard links: times are what decides whether anything is compiled again.
     shutil.copytree(made / name, folder / name, copy_function=os.link, symlinks=True)
 
@@ -120,7 +120,7 @@ def image(row, profile, formats, extra=()):
         command += ["--bin", "image", "--features", "image," + features, "--", *linker]
         env = environment(flags, folder)
         built, suffix = "image", ".elf"
-    if run(command, log, cwd=HERE, env=env) != 0:
+    if run("images", command, log, cwd=HERE, env=env) != 0:
         raise Failure("does not build", log)
     built = folder / row.target / ("debug" if profile == "dev" else profile) / built
     kept = folder / (label + suffix)
@@ -133,7 +133,7 @@ def host_program(row, profile, features, folder, log):
     command = ["cargo", "build", "--quiet", "--profile", profile, "--bin", "host", "--features",
                "host," + features]
     env = {**os.environ, "CARGO_TARGET_DIR": str(folder), "RUSTFLAGS": row.flags}
-    if run(command, log, cwd=HERE, env=env) != 0:
+    if run("host", command, log, cwd=HERE, env=env) != 0:
         raise Failure("does not build", log)
     return folder / ("debug" if profile == "dev" else profile) / "host"
 
@@ -145,6 +145,6 @@ def counter():
     if not library.exists() or library.stat().st_mtime < source.stat().st_mtime:
         log = output_folder() / "count.log"
         command = ["cc", "-O2", "-shared", "-fPIC", "-o", str(library), str(source)]
-        if run(command, log) != 0:
+        if run("host", command, log) != 0:
             raise Failure("the plugin that counts instructions does not build", log)
     return library

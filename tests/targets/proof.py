@@ -57,14 +57,24 @@ class Image:
         self.bare = "-none" in target
         self.symbols = text_of(llvm("llvm-nm"), "-C", str(path))
         self.functions = {}  # name -> lines of code
-        here = None
+        ends, here, end = self.ends(), None, None
         options = ["-d", "--no-show-raw-insn"]
         for line in text_of(llvm("llvm-objdump"), *options, str(path)).splitlines():
             # Some compilers leave local labels in the midst of a function.
             if head := re.fullmatch(r"[0-9a-f]+ <(?!\.L)(.+)>:", line):
-                here = self.functions.setdefault(head.group(1), [])
-            elif here is not None and (code := re.match(r"\s*[0-9a-f]+:\s+(\S.*)", line)):
-                here.append(code.group(1))
+                here, end = self.functions.setdefault(head.group(1), []), ends.get(head.group(1))
+            elif here is not None and (code := re.match(r"\s*([0-9a-f]+):\s+(\S.*)", line)):
+                # What lies between functions is no code, though it may look like some.
+                if end is None or int(code.group(1), 16) < end:
+                    here.append(code.group(2))
+
+    def ends(self):
+        """Where each function ends whose size is on record."""
+        rows = re.findall(r"^([0-9a-f]+) ([0-9a-f]+) \w (\S+)$",
+                          text_of(llvm("llvm-nm"), "-S", str(self.path)), re.M)
+        odd = 1 if self.kind == "thumb" else 0
+        return {name: (int(at, 16) & ~odd) + int(size, 16) for at, size, name in rows
+                if int(size, 16)}
 
     def address(self, name):
         """Where a function begins."""

@@ -1,7 +1,7 @@
 """The tables of a run of all targets: table.md, and the one in the README."""
 
 from rows import ALL, ROWS
-from tools import HERE, ROOT
+from tools import HERE, ROOT, Failure
 
 BEGIN, END = "<!-- targets -->", "<!-- end of targets -->"
 
@@ -64,10 +64,17 @@ def full(results):
     return "\n".join(lines)
 
 
+def parts():
+    """The README before and after its table."""
+    before, _, rest = (ROOT / "README.md").read_text().partition(BEGIN)
+    _, found, after = rest.partition(END)
+    if not found:
+        raise Failure(f"README.md has no place for the table, between {BEGIN} and {END}")
+    return before, after
+
+
 def write(results):
+    """Puts the results of a whole run into both files."""
+    before, after = parts()
     (HERE / "table.md").write_text(full(results))
-    path = ROOT / "README.md"
-    text = path.read_text()
-    before, rest = text.split(BEGIN)
-    _, after = rest.split(END)
-    path.write_text(f"{before}{BEGIN}\n{readme(results)}\n{END}{after}")
+    (ROOT / "README.md").write_text(f"{before}{BEGIN}\n{readme(results)}\n{END}{after}")

@@ -5,6 +5,7 @@ import os
 import pathlib
 import shutil
 import subprocess
+import threading
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -25,23 +26,37 @@ class Failure(Exception):
         self.log = log
 
 
-def run(command, log, timeout=None, cwd=HERE, env=None):
+spent = {}  # processor seconds, by what they were spent on
+_counting = threading.Lock()
+
+
+def run(what, command, log, timeout=None, cwd=HERE, env=None):
     """Runs a command with its output in a file; gives its exit status, or None after the time."""
     with open(log, "wb") as file:
         try:
-            return subprocess.run(command, stdin=subprocess.DEVNULL, stdout=file,
-                                  stderr=subprocess.STDOUT, timeout=timeout, cwd=cwd,
-                                  env=env).returncode
-        except subprocess.TimeoutExpired:
-            return None
+            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=file,
+                                       stderr=subprocess.STDOUT, cwd=cwd, env=env)
         except OSError as error:
             file.write(f"{command[0]}: {error}\n".encode())
             return 127
+    late = threading.Event()
+    timer = threading.Timer(timeout or 1e6, lambda: (late.set(), process.kill()))
+    timer.daemon = True
+    timer.start()
+    _, status, usage = os.wait4(process.pid, 0)
+    timer.cancel()
+    process.returncode = os.waitstatus_to_exitcode(status)
+    with _counting:
+        spent[what] = spent.get(what, 0) + usage.ru_utime + usage.ru_stime
+    return None if late.is_set() else process.returncode
 
 
 def text_of(*command):
     """What a command prints."""
-    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    try:
+        return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    except (OSError, subprocess.CalledProcessError) as error:
+        raise Failure(f"{command[0]} does not work: {error}") from error
 
 
 def llvm(name):

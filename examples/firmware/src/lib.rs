@@ -4,11 +4,11 @@
 
 mod scene;
 
-use embedded_graphics_core::geometry::{Point, Size};
-use embedded_graphics_core::pixelcolor::{Gray4, GrayColor};
-use embedded_graphics_core::prelude::DrawTarget;
-use embedded_graphics_core::primitives::Rectangle;
-use nostray::{Depth, Q16, Render, Scene, SceneError, Transfer};
+use embedded_graphics_core::draw_target::DrawTarget;
+use embedded_graphics_core::geometry::Point;
+use embedded_graphics_core::pixelcolor::Gray4;
+use nostray::display::{Look, draw_rows};
+use nostray::{Depth, Dither, Q16, Render, Scene, SceneError, Transfer};
 use sha2::{Digest, Sha256};
 
 /// The display, in pixels.
@@ -40,29 +40,11 @@ pub fn show<D: DrawTarget<Color = Gray4>>(display: &mut D) -> Result<[u8; 32], T
     let scene = Scene::new(scene::PARTS).map_err(Trouble::Scene)?;
     let depth = Depth::fixed(DEPTH);
     let picture = Picture::new(&scene, WIDTH as u32, HEIGHT as u32, depth);
-    let mut picture = picture.map_err(Trouble::Scene)?;
     let mut hash = Sha256::new();
-    for y in 0..HEIGHT {
-        let mut row = [Gray4::new(0); WIDTH];
-        // The places first: the other way round a pixel would be taken for which there is none.
-        for ((x, place), pixel) in row.iter_mut().enumerate().zip(picture.by_ref()) {
-            let bytes = pixel.color.to_rgb8(Transfer::Srgb);
-            hash.update(bytes);
-            *place = grey(bytes, x, y);
-        }
-        let area = Rectangle::new(Point::new(0, y as i32), Size::new(WIDTH as u32, 1));
-        display.fill_contiguous(&area, row).map_err(Trouble::Display)?;
-    }
+    let pixels = picture
+        .map_err(Trouble::Scene)?
+        .inspect(|pixel| hash.update(pixel.color.to_rgb8(Transfer::Srgb)));
+    let look = Look { transfer: Transfer::Srgb, dither: Dither::Ordered };
+    draw_rows(pixels, WIDTH as u32, Point::zero(), look, display).map_err(Trouble::Display)?;
     Ok(hash.finalize().into())
-}
-
-/// One of 16 levels for a colour, with the thresholds of a 4×4 Bayer matrix between two levels.
-fn grey([red, green, blue]: [u8; 3], x: usize, y: usize) -> Gray4 {
-    // Luma of Rec. 709, in 1/256.
-    let luma = (54 * u32::from(red) + 183 * u32::from(green) + 19 * u32::from(blue)) >> 8;
-    // The matrix from the bits of x and of x ⊕ y, the lowest first.
-    let (across, along) = (x as u32 ^ y as u32, y as u32);
-    let order = (across & 1) << 3 | (along & 1) << 2 | (across & 2) | (along & 2) >> 1;
-    // 255 is level 15; a level is 17 wide.
-    Gray4::new(((luma * 16 + order * 17) / (17 * 16)) as u8)
 }

@@ -85,8 +85,7 @@ const MATERIALS: &[Material<Q16>] = &[
 
 const TEXTURES: &[Texture<Q16>] = &[Texture::new(Pattern::Checker, Ramp::new(0, 2))];
 
-const STOPS: &[Stop<Q16>] =
-    &[Stop::color(cents(0), grey(80)), Stop::color(cents(100), grey(12))];
+const STOPS: &[Stop<Q16>] = &[Stop::color(cents(0), grey(80)), Stop::color(cents(100), grey(12))];
 
 const LIGHTS: &[Light<Q16>] = &[
     Light::Point { at: at(-400, 700, 600), color: grey(80), attenuation: Attenuation::NONE },
@@ -102,10 +101,5 @@ pub(crate) const PARTS: Parts<'static, Q16> = Parts {
     lights: LIGHTS,
     background: Background::Gradient { bottom: grey(40), top: grey(3) },
     ambient: grey(10),
-    ..Parts::seen_by(Camera::pinhole(
-        at(20, 230, 700),
-        at(20, 75, 0),
-        at(0, 100, 0),
-        cents(2300),
-    ))
+    ..Parts::seen_by(Camera::pinhole(at(20, 230, 700), at(20, 75, 0), at(0, 100, 0), cents(2300)))
 };

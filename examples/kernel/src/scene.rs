@@ -90,10 +90,8 @@ macro_rules! scene {
                 ..Texture::new(Pattern::Checker, Ramp::new(0, 2))
             }];
 
-            const STOPS: &[Stop<Number>] = &[
-                Stop::color(cents(0), rgb(85, 82, 75)),
-                Stop::color(cents(100), rgb(12, 14, 18)),
-            ];
+            const STOPS: &[Stop<Number>] =
+                &[Stop::color(cents(0), rgb(85, 82, 75)), Stop::color(cents(100), rgb(12, 14, 18))];
 
             const LIGHTS: &[Light<Number>] = &[
                 Light::Point {

@@ -13,8 +13,27 @@ use sha2::{Digest, Sha256};
 
 pub use scalars::each_scalar;
 
-/// Slow builds trace fewer pixels.
-const SHRINK: u32 = if cfg!(feature = "sketch") { 2 } else { 1 };
+/// How much of the pictures is traced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// Every pixel.
+    Whole,
+    /// Every picture with fewer pixels, for slow builds.
+    Sketch,
+    /// Only the first picture, for the smallest boards.
+    Basics,
+}
+
+impl Extent {
+    /// What a program without a choice was built for.
+    pub const BUILT: Self = if cfg!(feature = "sketch") {
+        Self::Sketch
+    } else if cfg!(feature = "basics") {
+        Self::Basics
+    } else {
+        Self::Whole
+    };
+}
 
 /// SHA-256 of all pictures: of their bytes in sRGB, and of the bits of their light, least significant
 /// byte first.
@@ -32,7 +51,8 @@ pub struct Digests {
 ///
 /// # Errors
 /// If a scene is refused.
-pub fn digests<S: Scalar>() -> Result<Digests, SceneError> {
+#[inline]
+pub fn digests<S: Scalar>(extent: Extent) -> Result<Digests, SceneError> {
     let (mut rgb8, mut light, mut pixels) = (Sha256::new(), Sha256::new(), 0);
     tracing_begins();
     let mut sink = |color: Rgb<S>| {
@@ -44,10 +64,10 @@ pub fn digests<S: Scalar>() -> Result<Digests, SceneError> {
         pixels += 1;
         tracing_begins();
     };
-    if cfg!(feature = "basics") {
-        pictures::trace_basics(SHRINK, &mut sink)?;
-    } else {
-        pictures::trace(SHRINK, &mut sink)?;
+    match extent {
+        Extent::Whole => pictures::trace(1, &mut sink)?,
+        Extent::Sketch => pictures::trace(2, &mut sink)?,
+        Extent::Basics => pictures::trace_basics(1, &mut sink)?,
     }
     tracing_ends();
     Ok(Digests { rgb8: rgb8.finalize().into(), light: light.finalize().into(), pixels })
@@ -67,9 +87,10 @@ pub extern "C" fn tracing_ends() {
     core::hint::black_box(1);
 }
 
-/// Writes what [`Digests`] of a format say as one line: its name, both digests, the pixels.
-pub fn write_line(name: &str, digests: &Digests, mut put: impl FnMut(&[u8])) {
-    put(b"PICTURE ");
+/// Writes what [`Digests`] of a format say as one line: a word, its name, both digests, the pixels.
+pub fn write_line(word: &str, name: &str, digests: &Digests, mut put: impl FnMut(&[u8])) {
+    put(word.as_bytes());
+    put(b" ");
     put(name.as_bytes());
     for digest in [&digests.rgb8, &digests.light] {
         put(b" ");

@@ -141,11 +141,13 @@ impl Oled {
     }
 
     fn send(&mut self, picture: bool, bytes: impl Iterator<Item = u8>) {
-        const BUSY: u32 = 1 << 4;
+        const RECEIVED: u32 = 1 << 2;
         write(Self::C_DATA, if picture { 1 << 7 } else { 0 });
         for byte in bytes {
             write(Self::SERIAL_DATA, u32::from(byte));
-            while read(Self::SERIAL_STATUS) & BUSY != 0 {}
+            // For each bit that leaves one comes in. When all have come, all have left.
+            while read(Self::SERIAL_STATUS) & RECEIVED == 0 {}
+            read(Self::SERIAL_DATA);
         }
     }
 }

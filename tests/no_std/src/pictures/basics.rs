@@ -7,7 +7,8 @@ use nostray::{
 
 use super::{rgb, shoot, tenths};
 
-type Builder<S> = SceneBuilder<S, Fixed<8, 16, 8, 8>>;
+/// Room for these five objects and no more: this picture is for the smallest boards, too.
+type Builder<S> = SceneBuilder<S, Fixed<5, 8, 3, 3>>;
 
 const SIZE: [u32; 2] = [48, 36];
 
@@ -22,6 +23,7 @@ pub(crate) fn trace<S: Scalar>(
     shoot(&builder.scene()?, SIZE, shrink, sink)
 }
 
+#[inline(never)]
 fn build<S: Scalar>(scene: &mut Builder<S>) -> Result<(), SceneError> {
     scene.ambient = rgb(1, 1, 1);
     scene.camera.eye = tenths::<S>(0, 30, 70);

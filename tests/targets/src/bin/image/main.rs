@@ -23,11 +23,13 @@ mod machine;
 #[cfg(target_os = "none")]
 mod memory;
 
-use nostray_targets::{each_scalar, write_line};
+use nostray_targets::{Extent, each_scalar, write_line};
 
-/// Computes the picture and says its digests; gives the status to exit with.
+/// Computes the pictures and says their digests; gives the status to exit with.
 fn report() -> u32 {
-    let result = each_scalar(|name, digests| write_line(name, &digests, machine::put));
+    let result = each_scalar(Extent::BUILT, |name, digests| {
+        write_line("PICTURE", name, &digests, machine::put);
+    });
     #[cfg(feature = "reachable")]
     assert!(result.is_ok(), "a panic that cannot be ruled out");
     #[cfg(target_os = "none")]
