@@ -54,8 +54,9 @@ ROWS = [
     host("host-o1", "opt-level 1", profile="o1"),
     host("host-os", "opt-level s", profile="small"),
     host("host-native", "every instruction of this processor", flags="-Ctarget-cpu=native"),
+    # In fixed point all solids together take more flash than this board has.
     cortex("microbit", "thumbv6m-none-eabi", "microbit", "Cortex-M0, 16 KB RAM, opt-level s",
-           ram_size="16K", flash_size="256K", profile="small", formats=("f32", "q16"), debug=False,
+           ram_size="16K", flash_size="256K", profile="small", formats=("f32",), debug=False,
            basics=True),
     cortex("m0", "thumbv6m-none-eabi", "mps2-an385", "code for Cortex-M0, on a Cortex-M3"),
     cortex("m3", "thumbv7m-none-eabi", "mps2-an385", "Cortex-M3"),

@@ -8,7 +8,7 @@ use embedded_graphics_core::draw_target::DrawTarget;
 use embedded_graphics_core::geometry::Point;
 use embedded_graphics_core::pixelcolor::Gray4;
 use nostray::display::{Look, draw_rows};
-use nostray::{Depth, Dither, Q16, Render, Scene, SceneError, Transfer};
+use nostray::{Depth, Dither, Render, Scene, SceneError, Transfer};
 use sha2::{Digest, Sha256};
 
 /// The display, in pixels.
@@ -20,7 +20,7 @@ pub const HEIGHT: usize = 64;
 const DEPTH: u16 = 4;
 
 /// A picture in the making; it is as large as everything that tracing needs.
-type Picture = Render<'static, Q16, 5, 16>;
+type Picture = Render<'static, f32, 5, 16>;
 
 /// Why there is no picture.
 #[derive(Debug)]

@@ -1,37 +1,30 @@
 //! The scene: tables of constants, which the linker puts into flash. Lengths are in hundredths.
 
-use nostray::fixed_point::{Triple, Unit16};
+use nostray::glam::Vec3;
 use nostray::*;
 
-type Point = Triple<Q16>;
-
-/// `n`/100 to the nearest step.
-const fn cents(n: i64) -> Q16 {
-    let half = if n < 0 { -50 } else { 50 };
-    Q16::from_bits((((n << 16) + half) / 100) as i32)
+const fn cents(n: i16) -> f32 {
+    n as f32 / 100.0
 }
 
-const fn at(x: i64, y: i64, z: i64) -> Point {
-    Triple::new(cents(x), cents(y), cents(z))
+const fn at(x: i16, y: i16, z: i16) -> Vec3 {
+    Vec3::new(cents(x), cents(y), cents(z))
 }
 
-const fn grey(share: i64) -> Rgb<Q16> {
+const fn grey(share: i16) -> Rgb<f32> {
     Rgb::new(cents(share), cents(share), cents(share))
 }
 
-const fn leaf(shape: Shape<Q16>, material: u16) -> Node<Q16> {
+const fn leaf(shape: Shape<f32>, material: u16) -> Node<f32> {
     Node::Leaf(Leaf { shape, material, placement: None })
 }
 
-const fn ball(center: Point, radius: i64, material: u16) -> Node<Q16> {
+const fn ball(center: Vec3, radius: i16, material: u16) -> Node<f32> {
     leaf(Shape::Sphere(Sphere { center, radius: cents(radius) }), material)
 }
 
-const UP: Triple<Unit16> =
-    Triple::new(Unit16::from_bits(0), Unit16::from_bits(1 << 30), Unit16::from_bits(0));
-
-static NODES: [Node<Q16>; 9] = [
-    leaf(Shape::Plane(Plane { normal: UP, offset: cents(0) }), 0),
+static NODES: [Node<f32>; 9] = [
+    leaf(Shape::Plane(Plane { normal: Vec3::Y, offset: cents(0) }), 0),
     ball(at(-190, 100, -20), 100, 1),
     // A die without pips: a box with rounded corners and a bite.
     Node::Operator { operator: Operator::Difference, size: 5 },
@@ -51,7 +44,7 @@ static NODES: [Node<Q16>; 9] = [
     ball(at(150, 30, 120), 30, 1),
 ];
 
-const OBJECTS: &[Object<Q16>] = &[
+const OBJECTS: &[Object<f32>] = &[
     Object::new(0, 1, 0),
     Object::new(1, 1, 1),
     Object::new(2, 5, 2),
@@ -65,7 +58,7 @@ const _: () = match scene::structure(&NODES, OBJECTS, MATERIALS.len(), 0) {
     Err(_) => panic!("the scene is put together wrongly"),
 };
 
-const fn glossy(color: Paint<Q16>, reflect: i64) -> Material<Q16> {
+const fn glossy(color: Paint<f32>, reflect: i16) -> Material<f32> {
     Material {
         color,
         diffuse: cents(80 - reflect / 2),
@@ -76,23 +69,23 @@ const fn glossy(color: Paint<Q16>, reflect: i64) -> Material<Q16> {
     }
 }
 
-const MATERIALS: &[Material<Q16>] = &[
+const MATERIALS: &[Material<f32>] = &[
     glossy(Paint::Texture(0), 10),
     glossy(Paint::Solid(grey(90)), 75),
     glossy(Paint::Solid(grey(70)), 0),
     glossy(Paint::Solid(grey(30)), 20),
 ];
 
-const TEXTURES: &[Texture<Q16>] = &[Texture::new(Pattern::Checker, Ramp::new(0, 2))];
+const TEXTURES: &[Texture<f32>] = &[Texture::new(Pattern::Checker, Ramp::new(0, 2))];
 
-const STOPS: &[Stop<Q16>] = &[Stop::color(cents(0), grey(80)), Stop::color(cents(100), grey(12))];
+const STOPS: &[Stop<f32>] = &[Stop::color(cents(0), grey(80)), Stop::color(cents(100), grey(12))];
 
-const LIGHTS: &[Light<Q16>] = &[
+const LIGHTS: &[Light<f32>] = &[
     Light::Point { at: at(-400, 700, 600), color: grey(80), attenuation: Attenuation::NONE },
     Light::Point { at: at(600, 400, 500), color: grey(25), attenuation: Attenuation::NONE },
 ];
 
-pub(crate) const PARTS: Parts<'static, Q16> = Parts {
+pub(crate) const PARTS: Parts<'static, f32> = Parts {
     nodes: &NODES,
     objects: OBJECTS,
     materials: MATERIALS,
