@@ -31,7 +31,7 @@ fn shoot<S: Scalar>(
     sink: &mut impl FnMut(Rgb<S>),
 ) -> Result<(), SceneError> {
     let (width, height) = (width / shrink.max(1), height / shrink.max(1));
-    let render: Render<S, 7, 32> = Render::new(scene, width, height, Depth::fixed(6))?;
+    let render: Render<S, 7, 36> = Render::new(scene, width, height, Depth::fixed(6))?;
     for pixel in render {
         sink(pixel.color);
     }
