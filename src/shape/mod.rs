@@ -10,10 +10,12 @@
 //! | [`Torus`] | recentred, cut into monotone pieces by the derivative of its quartic, refined on its distance |
 //! | [`Triangle`] | watertight edge functions in the space of the ray |
 //! | [`Polygon`] | the same edge functions, counted along a half-line; concave allowed |
+//! | [`Mesh`] | the same again, under a hierarchy of boxes; open or closed |
 
 mod cone;
 mod cuboid;
 mod cylinder;
+mod mesh;
 mod plane;
 mod polygon;
 mod sphere;
@@ -23,6 +25,7 @@ mod triangle;
 pub use cone::Cone;
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
+pub use mesh::Mesh;
 pub use plane::Plane;
 pub use polygon::Polygon;
 pub use sphere::Sphere;
@@ -30,10 +33,11 @@ pub use torus::Torus;
 pub use triangle::Triangle;
 
 use crate::bounds::Bounds;
+use crate::hierarchy::Branch;
 use crate::place::Placement;
 use crate::ray::{Line, Start};
 use crate::scalar::{Number, Real, Scalar, Vector};
-use crate::span::Span;
+use crate::span::{End, Passage, Span};
 
 /// A ray as one leaf sees it.
 #[derive(Clone, Copy, Debug)]
@@ -59,11 +63,14 @@ pub struct Tables<'a, S: Scalar> {
     pub indices: &'a [u32],
     /// Programs.
     pub code: &'a [u8],
+    /// Hierarchies over what shapes are made of.
+    pub branches: &'a [Branch<S>],
 }
 
 impl<S: Scalar> Tables<'_, S> {
     /// Nothing.
-    pub const EMPTY: Self = Self { points: &[], numbers: &[], indices: &[], code: &[] };
+    pub const EMPTY: Self =
+        Self { points: &[], numbers: &[], indices: &[], code: &[], branches: &[] };
 }
 
 /// What is wrong with a shape's parameters.
@@ -81,8 +88,14 @@ pub enum Flaw {
     Inverted(&'static str),
     /// An index lies beyond the end of a table.
     Index(&'static str),
+    /// A parameter is outside the range that its meaning allows, which is told.
+    OutOfRange(&'static str, &'static str),
     /// The vertices do not lie in one plane.
     NotPlanar(&'static str),
+    /// A triangle of a mesh cannot be one of it; what it does is told.
+    Triangle(u32, &'static str),
+    /// A node of a hierarchy does not hold what is below it, or does not hang where it says.
+    Hierarchy(u32),
     /// A placed shape must have its centre at the local origin.
     OffCentre(&'static str),
     /// The shape is given in the scene's coordinates and takes no placement.
@@ -107,6 +120,38 @@ pub trait Primitive<S: Scalar> {
     /// A ray in a flat face is inside; one that only touches a curved side or an edge is not.
     /// A component of the direction whose reciprocal is infinite counts as 0.
     fn spans(&self, sight: &Sight<'_, S>, emit: impl FnMut(Span<S>));
+    /// The same; what does not have to do with the given part of the ray may be left out, and where a
+    /// span begins before it or ends after it need not be told exactly.
+    #[inline]
+    fn spans_within(&self, sight: &Sight<'_, S>, _: [S; 2], emit: impl FnMut(Span<S>)) {
+        self.spans(sight, emit);
+    }
+    /// Whether a place of the ray is inside, and the first boundary after it and before another.
+    #[inline]
+    fn first(
+        &self,
+        sight: &Sight<'_, S>,
+        [after, before]: [S; 2],
+        open: bool,
+    ) -> (bool, Option<(End<S>, Passage)>) {
+        let (mut inside, mut first) = (false, None);
+        self.spans(sight, |span| {
+            let mut offer = |end: End<S>, passage: Passage| {
+                if end.t > after && end.t < before && first.is_none() {
+                    first = Some((end, passage));
+                }
+            };
+            if open {
+                offer(span.enter, Passage::Touch);
+            } else {
+                let span = span.solid();
+                inside |= span.enter.t <= after && after < span.exit.t;
+                offer(span.enter, Passage::Enter);
+                offer(span.exit, Passage::Leave);
+            }
+        });
+        (inside, first)
+    }
     /// The point of a face nearest to a local point close to it.
     fn snap(&self, local: S::WideVec, face: u32, tables: &Tables<'_, S>) -> S::Vec3;
     /// The outward normal at a local point of a face, not of unit length; never zero.
@@ -139,6 +184,8 @@ pub enum Shape<S: Scalar> {
     Triangle(Triangle),
     /// A plane polygon, an open surface.
     Polygon(Polygon<S>),
+    /// Many triangles, open or closed.
+    Mesh(Mesh),
 }
 
 macro_rules! each {
@@ -152,6 +199,7 @@ macro_rules! each {
             Shape::Torus($inner) => $body,
             Shape::Triangle($inner) => $body,
             Shape::Polygon($inner) => $body,
+            Shape::Mesh($inner) => $body,
         }
     };
 }
@@ -159,17 +207,33 @@ macro_rules! each {
 impl<S: Scalar> Shape<S> {
     /// A surface without an inside.
     pub const fn is_open(&self) -> bool {
-        matches!(self, Self::Triangle(_) | Self::Polygon(_))
+        match self {
+            Self::Triangle(_) | Self::Polygon(_) => true,
+            Self::Mesh(mesh) => !mesh.closed,
+            _ => false,
+        }
     }
 
     /// The greatest number of spans along any ray.
-    pub const fn spans_max(&self) -> u16 {
+    ///
+    /// Nothing less is certain of a mesh than that a ray meets each triangle once.
+    pub const fn spans_max(&self) -> u32 {
         match self {
             Self::Sphere(_) | Self::Plane(_) | Self::Box(_) | Self::Cylinder(_) | Self::Cone(_) => {
                 1
             }
             Self::Torus(_) => 2,
             Self::Triangle(_) | Self::Polygon(_) => 1,
+            Self::Mesh(mesh) if mesh.closed => mesh.triangles / 2,
+            Self::Mesh(mesh) => mesh.triangles,
+        }
+    }
+
+    /// The greatest number of boundaries along any ray.
+    pub const fn boundaries_max(&self) -> u32 {
+        match self {
+            Self::Mesh(mesh) => mesh.triangles,
+            _ => 2 * self.spans_max(),
         }
     }
 
@@ -199,10 +263,33 @@ impl<S: Scalar> Shape<S> {
     /// A component of the direction whose reciprocal is infinite counts as 0. No span is empty:
     /// one that is shorter than the numbers are apart ends at the next number.
     #[inline]
-    pub fn spans(&self, sight: &Sight<'_, S>, mut emit: impl FnMut(Span<S>)) {
+    pub fn spans(&self, sight: &Sight<'_, S>, emit: impl FnMut(Span<S>)) {
+        self.spans_within(sight, [-S::FAR, S::FAR], emit);
+    }
+
+    /// The same; what does not have to do with the given part of the ray may be left out, and where a
+    /// span begins before it or ends after it need not be told exactly.
+    #[inline]
+    pub(crate) fn spans_within(
+        &self,
+        sight: &Sight<'_, S>,
+        window: [S; 2],
+        mut emit: impl FnMut(Span<S>),
+    ) {
         let open = self.is_open();
         let emit = |span: Span<S>| emit(if open { span } else { span.solid() });
-        each!(self, shape => Primitive::<S>::spans(shape, sight, emit));
+        each!(self, shape => Primitive::<S>::spans_within(shape, sight, window, emit));
+    }
+
+    /// Whether a place of the ray is inside, and the first boundary after it and before another.
+    #[inline]
+    pub(crate) fn first(
+        &self,
+        sight: &Sight<'_, S>,
+        window: [S; 2],
+    ) -> (bool, Option<(End<S>, Passage)>) {
+        let open = self.is_open();
+        each!(self, shape => Primitive::<S>::first(shape, sight, window, open))
     }
 
     /// The point of a face nearest to a local point close to it.

@@ -1,6 +1,8 @@
 //! A shape of a document in the words of the scene builder.
 
-use nostray::{Form, Scalar};
+mod mesh;
+
+use nostray::{Form, Heights, Scalar};
 
 use crate::assemble::vector;
 use crate::document::Solid;
@@ -9,11 +11,13 @@ use crate::flaw::{Flaw, Path};
 /// What a form borrows: the lists of a shape, in the number format of the scene.
 pub(crate) struct Stock<S: Scalar> {
     points: Vec<S::Vec3>,
+    numbers: Vec<S>,
+    mesh: mesh::Lists<S>,
 }
 
 impl<S: Scalar> Default for Stock<S> {
     fn default() -> Self {
-        Self { points: Vec::new() }
+        Self { points: Vec::new(), numbers: Vec::new(), mesh: mesh::Lists::default() }
     }
 }
 
@@ -52,6 +56,17 @@ impl<S: Scalar> Stock<S> {
             Solid::Polygon(ref written) => {
                 self.points.extend(written.iter().map(|&vertex| v(vertex)));
                 ("Polygon", Form::Polygon { vertices: &self.points })
+            }
+            Solid::Mesh { .. } => {
+                self.mesh = mesh::Lists::of(leaf, &path.field("Mesh"))?;
+                ("Mesh", self.mesh.form())
+            }
+            Solid::HeightField { min, max, columns, ref heights, base, smooth } => {
+                self.numbers.extend(heights.iter().map(|&height| s(height)));
+                let (min, max, base) = (min.0.map(s), max.0.map(s), base.map(s));
+                let heights = &self.numbers;
+                let form = Heights { min, max, columns, heights, base, smooth };
+                ("HeightField", Form::HeightField(form))
             }
             _ => return Err(Flaw::new(path, "is not a shape")),
         })

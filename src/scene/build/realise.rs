@@ -1,6 +1,8 @@
 //! From a shape as people describe it to the shape that is stored, and its placement.
 
 mod flat;
+mod heights;
+mod mesh;
 mod torus;
 
 use super::{Form, SceneBuilder, Storage, Store, add_narrow};
@@ -8,6 +10,7 @@ use crate::error::{Item, SceneError};
 use crate::place::{Affine, Placement, Rows, apply_transposed};
 use crate::scalar::{Axis, Number, Scalar, Vector};
 use crate::shape::{Cone, Cuboid, Cylinder, Plane, Shape, Sphere};
+use mesh::Site;
 
 impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
     /// The shape and the placement that a form becomes, with its vertices in the table.
@@ -63,6 +66,14 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
                 Ok((self.realise_triangle(corners, normals, to_world, &inverse)?, None))
             }
             Form::Polygon { vertices } => Ok((self.realise_polygon(vertices, to_world)?, None)),
+            Form::Mesh(form) => {
+                let site = Site { to_world, inverse: &inverse, at };
+                Ok((self.realise_mesh(&form, site)?, None))
+            }
+            Form::HeightField(form) => {
+                let site = Site { to_world, inverse: &inverse, at };
+                Ok((self.realise_heights(&form, site)?, None))
+            }
         }
     }
 
