@@ -13,6 +13,7 @@
 //! | [`Triangle`] | watertight edge functions in the space of the ray |
 //! | [`Polygon`] | the same edge functions, counted along a half-line; concave allowed |
 //! | [`Implicit`] | intervals of the formula and of its slope, halved until each proves its roots |
+//! | [`Patches`] | subdivided across the ray until at most one root is left, then Newton |
 
 mod cone;
 mod crossings;
@@ -21,6 +22,7 @@ mod cylinder;
 mod implicit;
 mod lathe;
 mod outline;
+mod patch;
 mod plane;
 mod polygon;
 mod prism;
@@ -33,6 +35,7 @@ pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use implicit::{Implicit, ProgramFlaw, program};
 pub use lathe::{Curve, Filled, Lathe};
+pub use patch::Patches;
 pub use plane::Plane;
 pub use polygon::Polygon;
 pub use prism::{Prism, Winding};
@@ -175,6 +178,8 @@ pub enum Shape<S: Scalar> {
     Polygon(Polygon<S>),
     /// Where a formula is less than 0, within a box.
     Implicit(Implicit<S>),
+    /// Bicubic Bézier patches, an open surface.
+    Patches(Patches<S>),
 }
 
 macro_rules! each {
@@ -191,6 +196,7 @@ macro_rules! each {
             Shape::Triangle($inner) => $body,
             Shape::Polygon($inner) => $body,
             Shape::Implicit($inner) => $body,
+            Shape::Patches($inner) => $body,
         }
     };
 }
@@ -199,7 +205,7 @@ impl<S: Scalar> Shape<S> {
     /// A surface without an inside.
     pub const fn is_open(&self) -> bool {
         match self {
-            Self::Triangle(_) | Self::Polygon(_) => true,
+            Self::Triangle(_) | Self::Polygon(_) | Self::Patches(_) => true,
             Self::Lathe(lathe) => lathe.is_open(),
             _ => false,
         }
@@ -216,6 +222,7 @@ impl<S: Scalar> Shape<S> {
             Self::Prism(prism) => prism.spans_max(),
             Self::Triangle(_) | Self::Polygon(_) => 1,
             Self::Implicit(implicit) => implicit.spans,
+            Self::Patches(patches) => patches.hits_max(),
         }
     }
 

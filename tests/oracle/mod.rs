@@ -11,6 +11,8 @@
 
 pub mod exact;
 pub mod field;
+pub mod patch;
+pub mod patches;
 pub mod revolve;
 pub mod ring;
 pub mod scan;

@@ -15,11 +15,18 @@ pub(crate) struct Stock<S: Scalar> {
     pairs: Vec<[S; 2]>,
     numbers: Vec<S>,
     code: Vec<u8>,
+    patches: Vec<[u32; 16]>,
 }
 
 impl<S: Scalar> Default for Stock<S> {
     fn default() -> Self {
-        Self { points: Vec::new(), pairs: Vec::new(), numbers: Vec::new(), code: Vec::new() }
+        Self {
+            points: Vec::new(),
+            pairs: Vec::new(),
+            numbers: Vec::new(),
+            code: Vec::new(),
+            patches: Vec::new(),
+        }
     }
 }
 
@@ -70,6 +77,26 @@ impl<S: Scalar> Stock<S> {
                 self.compile(expr, spans, &path.field("Implicit"))?;
                 let (min, max, code, numbers) = (v(min), v(max), &self.code, &self.numbers);
                 ("Implicit", Form::Implicit { min, max, code, numbers, spans })
+            }
+            Solid::Patch(ref rows) => {
+                self.points.extend(rows.0.iter().flat_map(|row| row.0).map(v));
+                self.patches.push(std::array::from_fn(|index| index as u32));
+                ("Patch", Form::Patches { points: &self.points, patches: &self.patches })
+            }
+            Solid::Patches { ref points, ref patches } => {
+                self.points.extend(points.iter().map(|&point| v(point)));
+                self.patches.extend(patches.iter().map(|patch| patch.0));
+                ("Patches", Form::Patches { points: &self.points, patches: &self.patches })
+            }
+            Solid::Spline { points: ref rows, closed } => {
+                let columns = rows.first().map_or(0, Vec::len);
+                if rows.iter().any(|row| row.len() != columns) {
+                    let path = path.field("Spline");
+                    return Err(Flaw::new(&path.field("points"), "has rows of different lengths"));
+                }
+                self.points.extend(rows.iter().flatten().map(|&point| v(point)));
+                let (points, columns) = (&self.points[..], columns as u32);
+                ("Spline", Form::Spline { points, columns, closed: closed.0 })
             }
             _ => return Err(Flaw::new(path, "is not a shape")),
         })

@@ -60,6 +60,7 @@ pub static GALLERY: &[Entry] = &[
     },
     file!("steel", "steel brushed along a plate, turned on a knob, blued on a bolt"),
     file!("stone", "a hall of three marbles, with a granite plinth and a ball of agate"),
+    file!("teapot", "Newell's teapot, in 32 B\u{e9}zier patches"),
     file!("stress", "thin wires before a far planet, through a telescope of one degree"),
     file!("water", "a lake that mirrors a sky of noise, with waves and the rings around a post"),
 ];

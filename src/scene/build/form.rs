@@ -98,6 +98,23 @@ pub enum Form<'a, S: Scalar> {
         /// would be more, the last one goes on to the last exit.
         spans: Option<u16>,
     },
+    /// Bicubic Bézier patches that may share control points, an open surface.
+    Patches {
+        /// The control points.
+        points: &'a [S::Vec3],
+        /// The control points of each patch: four rows of four along u, one after another along v. Its outer
+        /// side is that of ∂/∂u × ∂/∂v.
+        patches: &'a [[u32; 16]],
+    },
+    /// A uniform bicubic B-spline, an open surface.
+    Spline {
+        /// The control points, row by row.
+        points: &'a [S::Vec3],
+        /// How many make a row: at least 4, or 3 where rows are closed. There are as many rows at least.
+        columns: u32,
+        /// Rows are closed curves; columns are.
+        closed: [bool; 2],
+    },
 }
 
 /// The profile of a surface of revolution: points with their distance from the axis and their height. If it

@@ -3,6 +3,7 @@
 mod flat;
 mod implicit;
 mod outline;
+mod patches;
 mod torus;
 
 use implicit::Formula;
@@ -72,6 +73,10 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
             Form::Implicit { min, max, code, numbers, spans } => {
                 let formula = Formula { corners: [min, max], code, numbers, spans };
                 self.realise_implicit(&formula, to_world)
+            }
+            Form::Patches { points, patches } => self.realise_patches(points, patches, to_world),
+            Form::Spline { points, columns, closed } => {
+                self.realise_spline(points, columns, closed, to_world)
             }
         }
     }
