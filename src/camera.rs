@@ -2,6 +2,7 @@
 
 use crate::place::sin_cos_degrees;
 use crate::ray::Ray;
+use crate::sampler::disc;
 use crate::scalar::{Number, Real, Scalar, Vector};
 
 /// What is seen from where.
@@ -29,6 +30,18 @@ pub enum Projection<S> {
     Orthographic {
         /// The height of the picture in the scene.
         height: S,
+    },
+    /// Through a thin lens: what is not at the distance of the plane in focus is blurred, where a pixel
+    /// has several samples. A single sample goes through the middle of the lens.
+    ///
+    /// Source: R. L. Cook, T. Porter and L. Carpenter, "Distributed Ray Tracing" (1984).
+    ThinLens {
+        /// The angle from the lower to the upper edge of the picture, in degrees.
+        fov: S,
+        /// The diameter of the lens, in units of the scene.
+        aperture: S,
+        /// How far the plane in focus is from the eye, along the line of sight.
+        focus: S,
     },
 }
 
@@ -64,20 +77,38 @@ impl<S: Scalar> Camera<S> {
         if !(forward.cross(up).length() > S::EPSILON.widen() * S::Wide::from_i32(16)) {
             return Err(CameraFlaw::Empty("up"));
         }
-        match self.projection {
-            Projection::Pinhole { fov } if !fov.is_finite() => Err(CameraFlaw::NotFinite("fov")),
-            Projection::Pinhole { fov } if !(fov > S::ZERO && fov < S::from_i32(180)) => {
+        self.projection.check()
+    }
+}
+
+impl<S: Scalar> Projection<S> {
+    fn check(&self) -> Result<(), CameraFlaw> {
+        let length = |value: S, field| {
+            if !value.is_finite() {
+                Err(CameraFlaw::NotFinite(field))
+            } else if !(value >= S::LENGTH_MIN && value <= S::COORD_MAX) {
+                Err(CameraFlaw::Range(field))
+            } else {
+                Ok(())
+            }
+        };
+        let angle = |fov: S| {
+            if !fov.is_finite() {
+                Err(CameraFlaw::NotFinite("fov"))
+            } else if !(fov > S::ZERO && fov < S::from_i32(180)) {
                 Err(CameraFlaw::Range("fov"))
+            } else {
+                Ok(())
             }
-            Projection::Orthographic { height } if !height.is_finite() => {
-                Err(CameraFlaw::NotFinite("height"))
+        };
+        match *self {
+            Self::Pinhole { fov } => angle(fov),
+            Self::Orthographic { height } => length(height, "height"),
+            Self::ThinLens { fov, aperture, focus } => {
+                angle(fov)?;
+                length(aperture, "aperture")?;
+                length(focus, "focus")
             }
-            Projection::Orthographic { height }
-                if !(height >= S::LENGTH_MIN && height <= S::COORD_MAX) =>
-            {
-                Err(CameraFlaw::Range("height"))
-            }
-            _ => Ok(()),
         }
     }
 }
@@ -85,46 +116,62 @@ impl<S: Scalar> Camera<S> {
 /// A camera and a picture size, ready to give rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens<S: Scalar> {
-    eye: S::Vec3,
-    forward: S::WideVec,
-    /// From the middle of the picture to its right edge, at distance 1 (or on the film).
-    right: S::WideVec,
-    /// From the middle of the picture to its upper edge.
-    up: S::WideVec,
-    parallel: bool,
-    width: u32,
-    height: u32,
+    camera: Camera<S>,
+    film: Film<S>,
 }
 
 impl<S: Scalar> Lens<S> {
     /// The rays of a camera for a picture of so many square pixels.
     pub fn new(camera: &Camera<S>, width: u32, height: u32) -> Self {
+        Self { camera: *camera, film: Film::new(camera, width, height) }
+    }
+
+    /// The ray through a point of a pixel and the middle of the lens; `offset` counts in pixels from the
+    /// pixel's upper left corner, (½, ½) is its middle. The direction has unit length.
+    #[inline]
+    pub fn ray(&self, x: u32, y: u32, offset: [S; 2]) -> Ray<S> {
+        self.film.ray(&self.camera, [x, y], offset, || [S::HALF; 2])
+    }
+}
+
+/// What a camera and a picture size make together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Film<S: Scalar> {
+    forward: S::WideVec,
+    /// From the middle of the picture to its right edge, at distance 1 (or on the film).
+    right: S::WideVec,
+    /// From the middle of the picture to its upper edge.
+    up: S::WideVec,
+    width: u32,
+    height: u32,
+}
+
+impl<S: Scalar> Film<S> {
+    pub(crate) fn new(camera: &Camera<S>, width: u32, height: u32) -> Self {
         let forward = (S::widen_vec(camera.look_at) - S::widen_vec(camera.eye)).normalize();
         let right = forward.cross(S::widen_vec(camera.up)).normalize();
         let up = right.cross(forward);
-        let (half, parallel) = match camera.projection {
-            Projection::Pinhole { fov } => {
+        let half = match camera.projection {
+            Projection::Pinhole { fov } | Projection::ThinLens { fov, .. } => {
                 let (sin, cos) = sin_cos_degrees::<S>(fov * S::HALF);
-                (sin / cos, false)
+                sin / cos
             }
-            Projection::Orthographic { height } => (height.widen() * S::Wide::HALF, true),
+            Projection::Orthographic { height } => height.widen() * S::Wide::HALF,
         };
         let aspect = S::Wide::from_ratio(width as i32, height as i32);
-        Self {
-            eye: camera.eye,
-            forward,
-            right: right * (half * aspect),
-            up: up * half,
-            parallel,
-            width,
-            height,
-        }
+        Self { forward, right: right * (half * aspect), up: up * half, width, height }
     }
 
-    /// The ray through a point of a pixel; `offset` in 0..1 counts from its upper left corner,
-    /// (½, ½) is its middle. The direction has unit length.
+    /// The ray of the camera that it was made for, through a point of a pixel and a point of the lens,
+    /// in 0..1 across and along it.
     #[inline]
-    pub fn ray(&self, x: u32, y: u32, offset: [S; 2]) -> Ray<S> {
+    pub(crate) fn ray(
+        &self,
+        camera: &Camera<S>,
+        [x, y]: [u32; 2],
+        offset: [S; 2],
+        lens: impl FnOnce() -> [S; 2],
+    ) -> Ray<S> {
         // (2·(x + offset) − width) / width: the whole numbers cancel before they are rounded.
         let across = |index: u32, size: u32, offset: S| {
             let doubled = S::Wide::from_i32(2 * index as i32 - size as i32);
@@ -133,10 +180,22 @@ impl<S: Scalar> Lens<S> {
         let h = across(x, self.width, offset[0]);
         let v = -across(y, self.height, offset[1]);
         let aside = self.right * h + self.up * v;
-        if self.parallel {
-            Ray { origin: self.eye + S::narrow_vec(aside), dir: S::narrow_dir(self.forward) }
-        } else {
-            Ray { origin: self.eye, dir: S::unit(self.forward + aside) }
+        let eye = camera.eye;
+        match camera.projection {
+            Projection::Pinhole { .. } => Ray { origin: eye, dir: S::unit(self.forward + aside) },
+            Projection::Orthographic { .. } => {
+                Ray { origin: eye + S::narrow_vec(aside), dir: S::narrow_dir(self.forward) }
+            }
+            Projection::ThinLens { aperture, focus, .. } => {
+                let [across, along] = disc::<S>(lens());
+                let radius = aperture.widen() * S::Wide::HALF;
+                let point = self.right.normalize() * (across * radius)
+                    + self.up.normalize() * (along * radius);
+                // Where the lens is met is rounded first, so that all rays meet in the plane in focus.
+                let point = S::narrow_vec(point);
+                let focused = (self.forward + aside) * focus.widen();
+                Ray { origin: eye + point, dir: S::unit(focused - S::widen_vec(point)) }
+            }
         }
     }
 }

@@ -29,6 +29,8 @@ pub enum Item {
     Ambient,
     /// The depth control of a picture.
     Depth,
+    /// The samples of a picture's pixels.
+    Sampling,
 }
 
 impl fmt::Display for Item {
@@ -44,6 +46,7 @@ impl fmt::Display for Item {
             Self::Background => f.write_str("background"),
             Self::Ambient => f.write_str("ambient"),
             Self::Depth => f.write_str("depth"),
+            Self::Sampling => f.write_str("sampling"),
         }
     }
 }

@@ -13,6 +13,7 @@
 //! | [`shape`], [`solid`] | the solids; trees of them by set operations |
 //! | [`stats`] | what was done |
 //! | [`color`], [`texture`], [`material`] | what a surface looks like |
+//! | [`sampler`] | where the samples of a pixel, a lens and a lamp lie |
 //! | [`light`], [`camera`], [`background`] | what it is lit by, and seen from and against |
 //! | [`error`] | what can be wrong with a scene |
 //! | [`scene`] | tables of all this, borrowed and checked; nearest hit and shadows |
@@ -50,6 +51,10 @@ pub mod texture;
 
 pub mod material;
 
+mod chance;
+
+pub mod sampler;
+
 pub mod light;
 
 pub mod camera;
@@ -76,11 +81,12 @@ pub use error::{Item, SceneError};
 pub use fixed;
 pub use fixed_point::{Q16, Q32};
 pub use glam;
-pub use light::{Attenuation, Light, Spotlight};
+pub use light::{Attenuation, Emitter, Light, Spotlight};
 pub use material::{Fresnel, Highlight, Material};
 pub use place::{Affine, Placement};
 pub use ray::Ray;
 pub use render::{Depth, Pixel, Render, Step};
+pub use sampler::{PixelFilter, Sampler, Spread};
 pub use scalar::{Axis, Number, Real, Scalar, Vector};
 pub use scene::{Fixed, Form, Hit, Limits, Object, Parts, Scene, SceneBuilder, Storage, Store};
 pub use shape::{Cone, Cuboid, Cylinder, Plane, Polygon, Shape, Sphere, Tables, Torus, Triangle};

@@ -1,6 +1,8 @@
 //! Where light comes from.
 
 use crate::color::Rgb;
+use crate::place::aside;
+use crate::sampler::disc;
 use crate::scalar::{Scalar, Vector};
 
 /// How light weakens with the distance r: 1 / (constant + linear·r + quadratic·r²).
@@ -55,6 +57,54 @@ impl<S: Scalar> Spotlight<S> {
     }
 }
 
+/// A surface that shines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Emitter<S: Scalar> {
+    /// A rectangle, or any other parallelogram.
+    Rectangle {
+        /// Its middle.
+        center: S::Vec3,
+        /// Two of its edges, from one corner.
+        edges: [S::Vec3; 2],
+    },
+    /// A disc.
+    Disc {
+        /// Its middle.
+        center: S::Vec3,
+        /// The unit vector at right angles to it, on either side.
+        normal: S::Dir,
+        /// Its radius.
+        radius: S,
+    },
+    /// A ball: as the disc of its radius that faces whatever is lit.
+    Sphere {
+        /// Its middle.
+        center: S::Vec3,
+        /// Its radius.
+        radius: S,
+    },
+}
+
+impl<S: Scalar> Emitter<S> {
+    /// A point of it that shines on `lit`, for a point of the unit square.
+    fn point(&self, lit: S::Vec3, [s, t]: [S; 2]) -> S::Vec3 {
+        let on_disc = |center: S::Vec3, axis: S::WideVec, radius: S| {
+            let ([u, v], [across, along]) = (aside(axis), disc([s, t]));
+            center + S::narrow_vec((u * across + v * along) * radius.widen())
+        };
+        match *self {
+            Self::Rectangle { center, edges: [u, v] } => {
+                center + u * (s - S::HALF) + v * (t - S::HALF)
+            }
+            Self::Disc { center, normal, radius } => on_disc(center, S::widen_dir(normal), radius),
+            Self::Sphere { center, radius } => {
+                let axis = S::widen_dir(S::toward(lit - center).0);
+                on_disc(center, axis, radius)
+            }
+        }
+    }
+}
+
 /// A source of light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Light<S: Scalar> {
@@ -85,6 +135,18 @@ pub enum Light<S: Scalar> {
         /// How it weakens.
         attenuation: Attenuation<S>,
     },
+    /// A surface, each point of which shines to all sides as a point would, so that its shadows are
+    /// soft. Each sample of a pixel sees one point of it; a single sample the middle.
+    ///
+    /// Nothing is seen of the light itself, and it is in nobody's way.
+    Area {
+        /// Where it is.
+        emitter: Emitter<S>,
+        /// Its intensity: what all its points together give.
+        color: Rgb<S>,
+        /// How it weakens.
+        attenuation: Attenuation<S>,
+    },
 }
 
 /// A light as a point sees it.
@@ -99,15 +161,23 @@ pub struct Illumination<S: Scalar> {
 }
 
 impl<S: Scalar> Light<S> {
-    /// What it does to a point, or `None` where it does not shine.
+    /// What it does to a point, or `None` where it does not shine. A light with an extent shines from
+    /// the point that `sample`, in 0..1 twice, picks; the others do not ask.
     #[inline]
-    pub fn seen_from(&self, point: S::Vec3) -> Option<Illumination<S>> {
+    pub fn seen_from(
+        &self,
+        point: S::Vec3,
+        sample: impl FnOnce() -> [S; 2],
+    ) -> Option<Illumination<S>> {
         let (at, color, attenuation, cone) = match self {
             Self::Directional { toward, color } => {
                 return Some(Illumination { toward: -*toward, distance: S::FAR, color: *color });
             }
             Self::Point { at, color, attenuation } => (*at, *color, attenuation, None),
             Self::Spot { at, cone, color, attenuation } => (*at, *color, attenuation, Some(cone)),
+            Self::Area { emitter, color, attenuation } => {
+                (emitter.point(point, sample()), *color, attenuation, None)
+            }
         };
         let (toward, distance) = S::toward(at - point);
         if distance == S::ZERO {
@@ -125,9 +195,9 @@ impl<S: Scalar> Light<S> {
     pub(crate) fn brightest(&self) -> Rgb<S> {
         match self {
             Self::Directional { color, .. } => *color,
-            Self::Point { color, attenuation, .. } | Self::Spot { color, attenuation, .. } => {
-                *color * (S::ONE / attenuation.constant)
-            }
+            Self::Point { color, attenuation, .. }
+            | Self::Spot { color, attenuation, .. }
+            | Self::Area { color, attenuation, .. } => *color * (S::ONE / attenuation.constant),
         }
     }
 }

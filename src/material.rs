@@ -49,6 +49,9 @@ pub struct Material<S: Scalar> {
     pub metallic: bool,
     /// The weight of the mirrored ray.
     pub reflect: S,
+    /// How far from the mirrored direction mirrored rays go, at most, at a distance of 1: from 0 of a perfect
+    /// mirror to 1. Each sample of a pixel follows one of them; a single sample the middle.
+    pub roughness: S,
     /// The weight of the refracted ray.
     pub transmit: S,
     /// The index of refraction inside.
@@ -72,6 +75,7 @@ impl<S: Scalar> Material<S> {
         highlight: Highlight::Phong,
         metallic: false,
         reflect: S::ZERO,
+        roughness: S::ZERO,
         transmit: S::ZERO,
         ior: S::ONE,
         fresnel: Fresnel::Off,

@@ -31,6 +31,18 @@ fn identity<S: Scalar>() -> Rows<S> {
     Axis::ALL.map(|axis| S::WideVec::ZERO.with(axis, S::Wide::ONE))
 }
 
+/// Two unit vectors at right angles to each other and to a unit vector.
+///
+/// Source: T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6 (2017).
+pub(crate) fn aside<V: Vector<Scalar: Real>>(axis: V) -> [V; 2] {
+    let [x, y, z] = axis.to_array();
+    let (zero, one) = (V::Scalar::ZERO, V::Scalar::ONE);
+    let sign = if z < zero { -one } else { one };
+    let a = -(one / (sign + z));
+    let b = x * y * a;
+    [V::new(one + sign * x * x * a, sign * b, -(sign * x)), V::new(b, sign + y * y * a, -y)]
+}
+
 /// An affine map: `rows · p + offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Affine<S: Scalar> {
@@ -301,6 +313,24 @@ mod tests {
         let go = Affine::translate(DVec3::new(10.0, 0.0, 0.0));
         assert_eq!(scale.then(&turn).then(&go).point(p), DVec3::new(10.0, 2.0, 0.0));
         assert_eq!(go.then(&turn).then(&scale).point(p), DVec3::new(0.0, 33.0, 0.0));
+    }
+
+    #[test]
+    fn vectors_aside_are_at_right_angles() {
+        for axis in [
+            DVec3::X,
+            DVec3::Z,
+            DVec3::NEG_Z,
+            DVec3::new(0.48, -0.6, 0.64),
+            DVec3::new(-0.48, 0.6, -0.64),
+            DVec3::new(0.6e-9, 0.8e-9, -1.0),
+        ] {
+            let [u, v] = aside(axis);
+            let products = [u.length_squared() - 1.0, v.length_squared() - 1.0]
+                .into_iter()
+                .chain([Vector::dot(u, v), Vector::dot(u, axis), Vector::dot(v, axis)]);
+            assert!(products.into_iter().all(|product| product.abs() <= 1e-15), "{axis}");
+        }
     }
 
     #[test]

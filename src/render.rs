@@ -1,53 +1,34 @@
 //! A picture, one ray at a time: the recursion of Whitted's algorithm on a bounded stack.
 //!
-//! A pixel is a weighted sum of the local light at every surface that its tree of rays
+//! A sample of a pixel is a weighted sum of the local light at every surface that its tree of rays
 //! meets, so nothing has to return: take a ray from the stack, add its share of local light,
 //! put its mirrored and its refracted ray on the stack. With at most two children a ray the
 //! stack never holds more than `depth_max + 1`.
+//!
+//! Which samples make a pixel is a type of its own, the [`Plan`]: one in the middle ([`Centre`]),
+//! several ([`Sampled`]). All share the same steps, and who samples nothing stores nothing for it.
+
+mod depth;
+mod plan;
+mod sampled;
+mod tracer;
+
+pub use depth::Depth;
+pub use plan::{AnyOrder, Centre, Plan};
+pub use sampled::Sampled;
 
 use core::ops::Range;
 
-use crate::camera::Lens;
+use crate::camera::Film;
+use crate::chance::{Chance, Dimension};
 use crate::color::Rgb;
-use crate::error::{Item, SceneError};
-use crate::ray::{Line, Ray, Start};
-use crate::scalar::{Number, Real, Scalar};
+use crate::error::SceneError;
+use crate::sampler::Sampler;
+use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::shade::{Branch, Surface};
-use crate::span::{Boundary, Passage};
 use crate::stats::{Event, Tally};
-
-/// When a tree of rays ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Depth<S> {
-    /// Static: how many times light may be mirrored or refracted on its way. 0 gives local light only.
-    pub depth_max: u16,
-    /// Dynamic: a ray whose weight (its greatest share of the pixel) is below this is cut; 0 cuts none.
-    pub weight_min: S,
-    /// Bounded error: rays are cut only while all that they could have brought to the pixel
-    /// stays within this, in units of linear light; 0 cuts none.
-    pub error_max: S,
-}
-
-impl<S: Scalar> Depth<S> {
-    /// Static control alone.
-    pub const fn fixed(depth_max: u16) -> Self {
-        Self { depth_max, weight_min: S::ZERO, error_max: S::ZERO }
-    }
-
-    fn check(&self) -> Result<(), SceneError> {
-        let at = Item::Depth;
-        for (value, field) in [(self.weight_min, "weight_min"), (self.error_max, "error_max")] {
-            if !value.is_finite() {
-                return Err(SceneError::NotFinite { at, field });
-            }
-            if value < S::ZERO {
-                return Err(SceneError::OutOfRange { at, field, allowed: "at least 0" });
-            }
-        }
-        Ok(())
-    }
-}
+use plan::{Listeners, Place};
+use tracer::{Pending, Tracer};
 
 /// A finished pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,8 +40,9 @@ pub struct Pixel<S> {
     /// The linear light.
     pub color: Rgb<S>,
     /// How much light the rays that were cut by weight or budget could have added, at most:
-    /// the pixel is within this of the one that only `depth_max` cuts. In fixed point the weights of
-    /// rays are rounded too, to half a step each; those roundings are not counted here.
+    /// the pixel is within this of the one that only `depth_max` cuts. Of several samples it is
+    /// the mean. In fixed point the weights of rays are rounded too, to half a step each; those
+    /// roundings are not counted here.
     pub spent: S,
 }
 
@@ -75,38 +57,31 @@ pub enum Step<S> {
     Done,
 }
 
-/// A ray that waits for its turn.
-#[derive(Clone, Copy, Debug)]
-struct Pending<S: Scalar> {
-    ray: Ray<S>,
-    start: Option<Start<S>>,
-    weight: Rgb<S>,
-    depth: u16,
-    /// How far it has come already, through surfaces that do not show.
-    after: S,
-}
-
 /// A picture in the making: plain data that can be stored at any step and taken up again.
 ///
 /// `RAYS` is the room of the ray stack, at least `depth_max + 1`. `BOUNDARIES` is the room for
 /// the boundaries of one solid; a scene tells what it needs in its
-/// [`limits`](crate::scene::Limits::boundaries).
+/// [`limits`](crate::scene::Limits::boundaries). `P` says which samples make a pixel.
 #[derive(Clone, Debug)]
-pub struct Render<'a, S: Scalar, const RAYS: usize = 9, const BOUNDARIES: usize = 64, T: Tally = ()>
-{
-    scene: Scene<'a, S>,
-    lens: Lens<S>,
-    depth: Depth<S>,
-    width: u32,
-    rows: Range<u32>,
+pub struct Render<
+    'a,
+    S: Scalar,
+    const RAYS: usize = 9,
+    const BOUNDARIES: usize = 64,
+    T: Tally = (),
+    P: Plan<S> = Centre,
+> {
+    tracer: Tracer<'a, S, RAYS, BOUNDARIES>,
+    film: Film<S>,
+    /// The columns that are rendered begin here.
+    left: u32,
+    /// They end before here.
+    right: u32,
     x: u32,
-    color: Rgb<S>,
-    spent: S,
-    stack: heapless::Vec<Pending<S>, RAYS>,
-    boundaries: [Boundary<S>; BOUNDARIES],
-    /// By the depth of a ray: the most light that it can bring for a weight of 1.
-    brightest: [S::Wide; RAYS],
+    /// The row that is rendered, and the one before which to end.
+    rows: Range<u32>,
     tally: T,
+    plan: P,
 }
 
 impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize> Render<'a, S, RAYS, BOUNDARIES> {
@@ -149,36 +124,51 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
         if depth_max as usize >= RAYS {
             return Err(SceneError::StackTooSmall { depth_max, limit: RAYS as u32 });
         }
-        let limits = scene.limits();
         scene.check_room(BOUNDARIES)?;
-        let local = limits.brightest.widen();
-        let (mut brightest, mut most) = ([local; RAYS], local);
-        for slot in brightest.iter_mut().take(depth_max as usize + 1).rev() {
-            *slot = most;
-            most = limits.background.widen().max(local + limits.growth.widen() * most);
-        }
-        Ok(Self {
-            scene: *scene,
-            lens: Lens::new(&scene.parts().camera, width, height),
-            depth,
-            width,
-            rows: 0..height,
-            x: 0,
-            color: Rgb::BLACK,
-            spent: S::ZERO,
-            stack: heapless::Vec::new(),
-            boundaries: [Boundary::vacant(); BOUNDARIES],
-            brightest,
-            tally,
-        })
+        let film = Film::new(&scene.parts().camera, width, height);
+        let (rows, plan) = (0..height, Centre);
+        let tracer = Tracer::new(scene, depth);
+        Ok(Self { tracer, film, left: 0, right: width, x: 0, rows, tally, plan })
     }
 
+    /// The same picture with several samples a pixel.
+    ///
+    /// # Errors
+    /// If there are none, or more than [`SAMPLES_MAX`](crate::sampler::SAMPLES_MAX).
+    pub fn sampled(
+        self,
+        sampler: Sampler,
+    ) -> Result<Render<'a, S, RAYS, BOUNDARIES, T, Sampled<S>>, SceneError> {
+        Ok(self.planned(Sampled::new(sampler)?))
+    }
+
+    fn planned<P: Plan<S>>(self, plan: P) -> Render<'a, S, RAYS, BOUNDARIES, T, P> {
+        let Self { tracer, film, left, right, x, rows, tally, plan: Centre } = self;
+        Render { tracer, film, left, right, x, rows, tally, plan }
+    }
+}
+
+impl<S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally, P: Plan<S>>
+    Render<'_, S, RAYS, BOUNDARIES, T, P>
+{
     /// The same picture, of which only these rows are rendered; rows beyond it are left out. To be
     /// said before the first step.
     #[must_use]
     pub fn only_rows(mut self, rows: Range<u32>) -> Self {
         self.rows = rows.start.max(self.rows.start)..rows.end.min(self.rows.end);
         self
+    }
+
+    /// The same picture, of which only these columns of these rows are rendered; what lies beyond it is
+    /// left out. To be said before the first step.
+    #[must_use]
+    pub fn only_tile(mut self, columns: Range<u32>, rows: Range<u32>) -> Self {
+        (self.left, self.right) = (columns.start.max(self.left), columns.end.min(self.right));
+        self.x = self.left;
+        if self.left >= self.right {
+            self.rows.start = self.rows.end;
+        }
+        self.only_rows(rows)
     }
 
     /// Who was told what happened.
@@ -188,109 +178,80 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
 
     /// Traces one ray with its shadow rays.
     pub fn step(&mut self) -> Step<S> {
-        let pending = match self.stack.pop() {
+        let (x, y) = (self.x, self.rows.start);
+        let at = Place { x, y };
+        let chance = self.plan.chance(at);
+        let pending = match self.tracer.next() {
             Some(pending) => pending,
             None if self.rows.is_empty() => return Step::Done,
             None => {
                 self.tally.count(Event::PrimaryRay);
-                let ray = self.lens.ray(self.x, self.rows.start, [S::HALF, S::HALF]);
-                Pending { ray, start: None, weight: Rgb::WHITE, depth: 0, after: S::ZERO }
+                let (pixel, offset) = self.plan.aim(at);
+                let camera = &self.tracer.scene.parts().camera;
+                let lens = || chance.pair(Dimension::LENS);
+                Pending::primary(self.film.ray(camera, pixel, offset, lens))
             }
         };
-        self.trace(pending);
-        if !self.stack.is_empty() {
+        let mut listeners = Listeners { tally: &mut self.tally, plan: &mut self.plan };
+        self.tracer.trace(pending, &chance, &mut listeners);
+        if !self.tracer.is_finished() {
             return Step::Traced;
         }
-        let pixel = Pixel { x: self.x, y: self.rows.start, color: self.color, spent: self.spent };
-        (self.color, self.spent) = (Rgb::BLACK, S::ZERO);
+        let (color, spent) = self.tracer.take();
+        let Some((color, spent)) = self.plan.take(at, color, spent) else {
+            return Step::Traced;
+        };
         self.x += 1;
-        if self.x == self.width {
-            (self.x, self.rows.start) = (0, self.rows.start + 1);
+        if self.x == self.right {
+            (self.x, self.rows.start) = (self.left, y + 1);
         }
-        Step::Pixel(pixel)
+        Step::Pixel(Pixel { x, y, color, spent })
     }
 
-    /// Adds the share of one ray, and puts the rays that it asks for on the stack.
-    fn trace(&mut self, pending: Pending<S>) {
-        let Pending { ray, start, mut weight, depth, after } = pending;
-        let line = Line::new(ray, start);
-        let found = self.scene.search(&line, after, &mut self.boundaries, &mut self.tally);
-        let here = found.media.here();
-        let distance = found.hit.map_or(S::FAR, |hit| hit.boundary.t);
-        weight = weight * self.scene.absorption(here, distance - after);
-        let Some(hit) = found.hit else {
-            self.color += self.scene.parts().background.toward(ray.dir) * weight;
-            return;
-        };
-        let passage = hit.boundary.passage;
-        let behind = found.media.behind(hit.object, passage);
-        if self.scene.is_hidden(&hit.boundary, [here, behind]) {
-            // The same ray goes on behind this boundary, at the same depth: no light is mirrored
-            // or refracted here, and no rounding can bring the boundary back.
-            self.push(Pending { weight, after: distance, ..pending });
-            return;
-        }
-        let tally = &mut self.tally;
-        let Some(mut surface) = Surface::new(&self.scene, &line, &hit.boundary, tally) else {
-            return;
-        };
-        let ratio = if passage == Passage::Touch {
-            S::Wide::ONE
-        } else {
-            let other = if behind == here { Some(hit.object) } else { behind };
-            self.scene.ior(here).widen() / self.scene.ior(other).widen()
-        };
-        let branches = surface.branches(&self.scene, ray.dir, weight, ratio, &mut self.tally);
-        let (view, diffuse) = (ray.dir, branches.diffuse);
-        let local =
-            surface.local_light(&self.scene, view, diffuse, &mut self.boundaries, &mut self.tally);
-        self.color += local * weight;
-        self.follow(branches.refracted, depth, Event::RefractedRay);
-        self.follow(branches.reflected, depth, Event::ReflectedRay);
+    /// Goes to a pixel, in a row that is rendered or in one above; what was begun is forgotten.
+    fn go(&mut self, x: u32, y: u32) {
+        self.tracer.clear();
+        self.plan.restart();
+        let inside = (self.left..self.right).contains(&x) && y < self.rows.end;
+        (self.x, self.rows.start) = if inside { (x, y) } else { (self.left, self.rows.end) };
     }
 
-    /// Puts a ray on the stack unless depth control cuts it.
-    fn follow(&mut self, branch: Option<Branch<S>>, depth: u16, event: Event) {
-        let Some(Branch { ray, start, weight }) = branch else {
-            return;
-        };
-        if depth >= self.depth.depth_max {
-            self.tally.count(Event::DepthCut);
-            return;
+    /// Goes to the first pixel of a row, if it is not there; what was begun of another is forgotten.
+    /// Beyond the rows that are rendered there is nothing to do.
+    pub fn seek_row(&mut self, y: u32) {
+        if (self.x, self.rows.start) != (self.left, y) {
+            self.go(self.left, y);
         }
-        let (share, depth) = (weight.max_part(), depth + 1);
-        if share == S::ZERO {
-            return;
-        }
-        let most = self.brightest.get(usize::from(depth)).copied().unwrap_or(S::Wide::FAR);
-        let most = S::narrow(most * share.widen());
-        if share < self.depth.weight_min {
-            self.tally.count(Event::WeightCut);
-            self.spent += most;
-            return;
-        }
-        let budget = self.depth.error_max;
-        // Small pieces first: no single ray may take more than a 64th.
-        if most <= (budget - self.spent).min(budget * S::from_ratio(1, 64)) {
-            self.tally.count(Event::BudgetCut);
-            self.spent += most;
-            return;
-        }
-        self.tally.count(event);
-        self.push(Pending { ray, start: Some(start), weight, depth, after: S::ZERO });
     }
 
-    /// One ray is taken from the stack before at most two are put on it, each one deeper, so
-    /// the room for `depth_max + 1` that the constructor asked for is enough.
-    fn push(&mut self, pending: Pending<S>) {
-        let pushed = self.stack.push(pending);
-        debug_assert!(pushed.is_ok(), "the ray stack holds depth_max + 1");
+    /// Renders a row into as many pixels as it has or as there is room for, from the left, and tells
+    /// how many. What was begun of a pixel elsewhere is forgotten; rendering goes on behind.
+    pub fn render_row(&mut self, y: u32, row: &mut [Rgb<S>]) -> usize {
+        self.seek_row(y);
+        let mut count = 0;
+        let wide = (self.right - self.left) as usize;
+        // The places first: the other way round a pixel would be taken for which there is none.
+        for (place, pixel) in row.iter_mut().take(wide).zip(self) {
+            *place = pixel.color;
+            count += 1;
+        }
+        count
+    }
+}
+
+impl<S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally, P: AnyOrder<S>>
+    Render<'_, S, RAYS, BOUNDARIES, T, P>
+{
+    /// Goes to a pixel; what was begun of another is forgotten. Rendering goes on from there. Beyond
+    /// what is rendered there is nothing to do.
+    pub fn seek(&mut self, x: u32, y: u32) {
+        self.go(x, y);
     }
 }
 
 /// The pixels in order, row by row.
-impl<S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally> Iterator
-    for Render<'_, S, RAYS, BOUNDARIES, T>
+impl<S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally, P: Plan<S>> Iterator
+    for Render<'_, S, RAYS, BOUNDARIES, T, P>
 {
     type Item = Pixel<S>;
 
@@ -306,11 +267,12 @@ impl<S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally> Iterator
 
     fn size_hint(&self) -> (usize, Option<usize>) {
         let rows = self.rows.len();
-        match rows.checked_mul(self.width as usize) {
-            Some(pixels) => {
-                let left = pixels - self.x as usize;
+        match rows.checked_mul((self.right - self.left) as usize) {
+            Some(pixels) if pixels > 0 => {
+                let left = pixels - (self.x - self.left) as usize;
                 (left, Some(left))
             }
+            Some(_) => (0, Some(0)),
             None => (usize::MAX, None),
         }
     }

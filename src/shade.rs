@@ -1,9 +1,12 @@
 //! The light that leaves a surface: what is lit directly, and which rays carry the rest.
 
+use crate::chance::{Chance, Dimension, hash};
 use crate::color::Rgb;
 use crate::look::Look;
 use crate::material::{Fresnel, Highlight, Material};
+use crate::place::aside;
 use crate::ray::{Line, Ray, Start};
+use crate::sampler::disc;
 use crate::scalar::{Number, Real, Scalar, Vector};
 use crate::scene::Scene;
 use crate::solid::Contact;
@@ -89,6 +92,7 @@ impl<'a, S: Scalar> Surface<'a, S> {
         scene: &Scene<'_, S>,
         view: S::Dir,
         diffuse_share: S,
+        (chance, path): (&impl Chance<S>, u16),
         buffer: &mut [Boundary<S>],
         tally: &mut impl Tally,
     ) -> Rgb<S> {
@@ -103,8 +107,9 @@ impl<'a, S: Scalar> Surface<'a, S> {
             return light;
         }
         let mut gloss = None;
-        for lamp in parts.lights {
-            let Some(seen) = lamp.seen_from(self.contact.position) else {
+        for (index, lamp) in (0..).zip(parts.lights) {
+            let sample = || chance.pair(Dimension::light(path, index));
+            let Some(seen) = lamp.seen_from(self.contact.position, sample) else {
                 tally.count(Event::ShadowSkip);
                 continue;
             };
@@ -134,7 +139,11 @@ impl<'a, S: Scalar> Surface<'a, S> {
             tally.count(Event::ShadowRay);
             let ray = Ray { origin: self.contact.position, dir: seen.toward };
             let line = Line::new(ray, Some(self.start(false)));
-            light += arriving * scene.transmittance(&line, seen.distance, buffer, tally);
+            let share = scene.transmittance(&line, seen.distance, buffer, tally);
+            if !share.is_black() {
+                tally.meet(|| hash(index, 1));
+            }
+            light += arriving * share;
         }
         light
     }
@@ -153,7 +162,8 @@ impl<'a, S: Scalar> Surface<'a, S> {
     }
 
     /// The mirrored and the refracted ray for a ray of direction `view` and a weight; `ratio`
-    /// is the index of refraction on this side over that on the other.
+    /// is the index of refraction on this side over that on the other. A rough surface asks which of
+    /// its mirrored rays to follow.
     ///
     /// Snell's law decides the direction; beyond the critical angle all that would pass is mirrored.
     pub(crate) fn branches(
@@ -162,6 +172,7 @@ impl<'a, S: Scalar> Surface<'a, S> {
         view: S::Dir,
         weight: Rgb<S>,
         ratio: S::Wide,
+        sample: impl FnOnce() -> [S; 2],
         tally: &mut impl Tally,
     ) -> Branches<S> {
         let material = self.look.material;
@@ -191,7 +202,11 @@ impl<'a, S: Scalar> Surface<'a, S> {
             }
         }
         let reflected = (reflect > S::ZERO).then(|| {
-            let dir = S::unit(S::widen_dir(self.mirrored(view, cosine)));
+            let mut dir = S::widen_dir(self.mirrored(view, cosine));
+            if material.roughness > S::ZERO {
+                dir = self.scattered(dir, sample());
+            }
+            let dir = S::unit(dir);
             let tint = self.look.tint(scene, tally);
             self.branch(dir, false, weight * tint * reflect)
         });
@@ -208,5 +223,14 @@ impl<'a, S: Scalar> Surface<'a, S> {
         } else {
             S::mirror(view, self.normal, view.dot(self.normal))
         }
+    }
+    /// A direction near a mirrored one, within the roughness at a distance of 1, for a point of the unit
+    /// square; never to the far side of the geometry.
+    fn scattered(&self, mirrored: S::WideVec, sample: [S; 2]) -> S::WideVec {
+        let ([u, v], [across, along]) = (aside(mirrored), disc::<S>(sample));
+        let off = (u * across + v * along) * self.look.material.roughness.widen();
+        let dir = mirrored + off;
+        // Of two opposite directions at least one is on the side of the mirrored one.
+        if dir.dot(S::widen_dir(self.normal)) < S::Wide::ZERO { mirrored - off } else { dir }
     }
 }

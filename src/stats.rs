@@ -65,6 +65,14 @@ impl Event {
 pub trait Tally {
     /// Takes note of one.
     fn count(&mut self, event: Event);
+
+    /// Takes note of something that the rays of a sample met, and those of its neighbour may not have:
+    /// a face of a leaf, a cell of a texture, a light that is not hidden, or nothing at all. The mark is
+    /// different for different things. Nobody has to listen, and then it is not worked out.
+    #[inline]
+    fn meet(&mut self, mark: impl FnOnce() -> u32 + Copy) {
+        let _ = mark;
+    }
 }
 
 impl Tally for () {
@@ -83,6 +91,12 @@ impl Stats {
     /// How often an event happened.
     pub fn of(&self, event: Event) -> u64 {
         self.counts.get(event as usize).copied().unwrap_or(0)
+    }
+
+    /// All rays: from the camera, mirrored, refracted, and to lights.
+    pub fn rays(&self) -> u64 {
+        let kinds = [Event::PrimaryRay, Event::ReflectedRay, Event::RefractedRay, Event::ShadowRay];
+        kinds.iter().map(|event| self.of(*event)).sum()
     }
 
     /// Adds what another counted.

@@ -1,5 +1,6 @@
 //! The one place where a scene is checked; after it nothing can fail.
 
+mod light;
 mod texture;
 
 use super::structure::{Structure, object_structure};
@@ -8,13 +9,13 @@ use crate::background::Background;
 use crate::bounds::Bounds;
 use crate::color::Rgb;
 use crate::error::{Item, SceneError};
-use crate::light::{Attenuation, Light};
 use crate::material::{Fresnel, Material};
 use crate::place::{Placement, apply};
 use crate::scalar::{Axis, Number, Real, Scalar, Vector};
 use crate::shape::{Shape, Triangle};
 use crate::solid::{Leaf, NESTING_MAX, Node};
 use crate::span::Operator;
+use light::check_light;
 use texture::{check_channels, check_paint, check_texture};
 
 /// Checks all tables and works out what the scene needs.
@@ -223,6 +224,12 @@ fn check_material<S: Scalar>(
     if material.shininess < S::ZERO {
         return Err(SceneError::OutOfRange { at, field: "shininess", allowed: "at least 0" });
     }
+    if !material.roughness.is_finite() {
+        return Err(SceneError::NotFinite { at, field: "roughness" });
+    }
+    if !(material.roughness >= S::ZERO && material.roughness <= S::ONE) {
+        return Err(SceneError::OutOfRange { at, field: "roughness", allowed: "between 0 and 1" });
+    }
     if !material.ior.is_finite() {
         return Err(SceneError::NotFinite { at, field: "ior" });
     }
@@ -230,17 +237,6 @@ fn check_material<S: Scalar>(
         return Err(SceneError::OutOfRange { at, field: "ior", allowed: "between 0.1 and 10" });
     }
     check_light_amount(at, "absorb", material.absorb)
-}
-
-fn check_attenuation<S: Scalar>(at: Item, attenuation: &Attenuation<S>) -> Result<(), SceneError> {
-    check_amount(at, "attenuation", attenuation.constant)?;
-    check_amount(at, "attenuation", attenuation.linear)?;
-    check_amount(at, "attenuation", attenuation.quadratic)?;
-    if attenuation.constant < S::from_ratio(1, 10_000) {
-        let allowed = "at least 0.0001 in its constant part";
-        return Err(SceneError::OutOfRange { at, field: "attenuation", allowed });
-    }
-    Ok(())
 }
 
 fn check_unit<S: Scalar>(at: Item, field: &'static str, v: S::Dir) -> Result<(), SceneError> {
@@ -252,39 +248,6 @@ fn check_unit<S: Scalar>(at: Item, field: &'static str, v: S::Dir) -> Result<(),
         Err(SceneError::OutOfRange { at, field, allowed: "of unit length" })
     } else {
         Ok(())
-    }
-}
-
-fn check_light<S: Scalar>(at: Item, light: &Light<S>) -> Result<(), SceneError> {
-    match light {
-        Light::Directional { toward, color } => {
-            check_light_amount(at, "color", *color)?;
-            check_unit::<S>(at, "toward", *toward)
-        }
-        Light::Point { at: position, color, attenuation }
-        | Light::Spot { at: position, color, attenuation, .. } => {
-            if !position.is_finite() {
-                return Err(SceneError::NotFinite { at, field: "at" });
-            }
-            if position.max_abs() > S::COORD_MAX {
-                return Err(SceneError::TooLarge { at, field: "at" });
-            }
-            check_light_amount(at, "color", *color)?;
-            check_attenuation(at, attenuation)?;
-            let Light::Spot { cone, .. } = light else {
-                return Ok(());
-            };
-            check_unit::<S>(at, "toward", cone.axis)?;
-            let in_order = cone.cos_inner <= S::ONE
-                && cone.cos_outer >= -S::ONE
-                && cone.cos_outer < cone.cos_inner;
-            if in_order {
-                Ok(())
-            } else {
-                let allowed = "an outer angle greater than the inner one, up to 180 degrees";
-                Err(SceneError::OutOfRange { at, field: "cone", allowed })
-            }
-        }
     }
 }
 

@@ -14,7 +14,7 @@ pub use texture::{
 
 use serde::Deserialize;
 
-use crate::written::{Amount, Background, Paint, Reliefs, Table, Triple, present};
+use crate::written::{Amount, Background, Paint, Reliefs, Several, Table, Triple, present};
 
 /// A whole scene file.
 #[derive(Clone, Debug, Deserialize)]
@@ -59,6 +59,12 @@ pub struct Camera {
     /// The height of an orthographic picture, in the units of the scene.
     #[serde(default, deserialize_with = "present")]
     pub height: Option<f64>,
+    /// The diameter of the lens, in the units of the scene; a pinhole if left out or 0.
+    #[serde(default, deserialize_with = "present")]
+    pub aperture: Option<f64>,
+    /// How far the plane in focus is from the eye, along the line of sight; that of `look_at` if left out.
+    #[serde(default, deserialize_with = "present")]
+    pub focus: Option<f64>,
 }
 
 fn upward() -> Triple {
@@ -97,6 +103,44 @@ pub enum Light {
         /// The half angle, in degrees, beyond which there is none.
         outer: f64,
         /// Its intensity.
+        color: Triple,
+        /// How it weakens with the distance; not at all if left out.
+        #[serde(default)]
+        attenuation: Attenuation,
+    },
+    /// A rectangle, or another parallelogram, that shines to all sides from each of its points.
+    Rectangle {
+        /// Its middle.
+        center: Triple,
+        /// Two of its edges, from one corner.
+        edges: Several<Triple, 2>,
+        /// Its intensity: what all its points together give.
+        color: Triple,
+        /// How it weakens with the distance; not at all if left out.
+        #[serde(default)]
+        attenuation: Attenuation,
+    },
+    /// A disc that shines to all sides from each of its points.
+    Disc {
+        /// Its middle.
+        center: Triple,
+        /// A vector at right angles to it, of any length but 0.
+        normal: Triple,
+        /// Its radius.
+        radius: f64,
+        /// Its intensity: what all its points together give.
+        color: Triple,
+        /// How it weakens with the distance; not at all if left out.
+        #[serde(default)]
+        attenuation: Attenuation,
+    },
+    /// A ball that shines as the disc that faces what is lit.
+    Sphere {
+        /// Its middle.
+        center: Triple,
+        /// Its radius.
+        radius: f64,
+        /// Its intensity: what all its points together give.
         color: Triple,
         /// How it weakens with the distance; not at all if left out.
         #[serde(default)]
@@ -142,6 +186,8 @@ pub struct Material {
     pub metallic: bool,
     /// The weight of the mirrored ray; 0 if left out.
     pub reflect: Amount,
+    /// How far mirrored rays are spread, at most, at a distance of 1; 0 if left out.
+    pub roughness: f64,
     /// The weight of the refracted ray; 0 if left out.
     pub transmit: Amount,
     /// The index of refraction inside; 1 if left out.
@@ -165,6 +211,7 @@ impl Default for Material {
             highlight: Highlight::Phong,
             metallic: false,
             reflect: 0.0.into(),
+            roughness: 0.0,
             transmit: 0.0.into(),
             ior: 1.0,
             fresnel: Fresnel::Off,

@@ -7,6 +7,7 @@ mod flaw;
 mod forms;
 mod globe;
 mod heap;
+mod lamp;
 mod locate;
 mod looks;
 mod moves;
@@ -15,8 +16,10 @@ mod patterns;
 mod picture;
 mod probe_command;
 mod render_command;
+mod sampling_options;
 mod solids;
 mod sphereflake;
+mod viewer;
 
 pub mod document;
 pub mod gallery;

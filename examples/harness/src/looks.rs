@@ -125,6 +125,7 @@ impl<S: Scalar> Assembly<S> {
                     document::Highlight::Blinn => Highlight::Blinn,
                 },
                 metallic: written.metallic,
+                roughness: S::from_f64(written.roughness),
                 ior: S::from_f64(written.ior),
                 fresnel: match written.fresnel {
                     document::Fresnel::Off => Fresnel::Off,

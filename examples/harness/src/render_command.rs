@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::io::{self, IsTerminal, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use clap::Parser;
@@ -13,7 +14,8 @@ use nostray::{Depth, Event, Q16, Q32, Scalar, Transfer};
 use crate::failure::{Failure, parse, report};
 use crate::gallery::GALLERY;
 use crate::output::{Format, digest, write};
-use crate::raster::{DEPTH_MAX, Order, Raster, render};
+use crate::raster::{DEPTH_MAX, Onlooker, Order, Raster, render_sampled};
+use crate::sampling_options::SamplingOptions;
 use crate::source::Source;
 
 /// The greatest picture that is rendered in one go.
@@ -38,12 +40,8 @@ struct Options {
     /// The number format: f32, f64, or in fixed point q16 (Q16.16), q32 (Q32.32)
     #[arg(long, value_name = "S", default_value = "f32")]
     scalar: String,
-    /// Samples per pixel; only 1 is supported
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    samples: u32,
-    /// Refines where contrast exceeds T; not supported
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
-    adaptive: Option<f64>,
+    #[command(flatten)]
+    sampling: SamplingOptions,
     /// How many times light may be mirrored or refracted, at most 64
     #[arg(long, value_name = "N", default_value_t = 8)]
     depth_max: u32,
@@ -106,12 +104,7 @@ impl Options {
     /// Refuses what cannot be done, before any work.
     fn check(&self) -> Result<(), Failure> {
         let usage = |message: String| Err(Failure::usage(message));
-        if self.samples != 1 {
-            return usage(format!("--samples {}: only 1 is supported", self.samples));
-        }
-        if self.adaptive.is_some() {
-            return usage("--adaptive: is not supported".to_owned());
-        }
+        self.sampling.check()?;
         if self.depth_max > u32::from(DEPTH_MAX) {
             return usage(format!("--depth-max {}: must be at most {DEPTH_MAX}", self.depth_max));
         }
@@ -129,7 +122,8 @@ impl Options {
     fn picture<S: Scalar>(&self, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), Failure> {
         let source = Source::find(&self.scene).map_err(Failure::usage)?;
         let target = self.target(&source)?;
-        let loaded = source.load::<S>().map_err(Failure::scene)?;
+        let mut loaded = source.load::<S>().map_err(Failure::scene)?;
+        self.sampling.set_lens(&mut loaded)?;
         let order = self.order::<S>(loaded.size)?;
         let name = source.name();
         let scene = loaded.scene().map_err(Failure::scene)?;
@@ -139,7 +133,8 @@ impl Options {
         }
         let bar = progress(order.rows.len());
         let begun = Instant::now();
-        let rendered = render(&scene, &order, &|| bar.inc(1));
+        let onlooker = Onlooker { on_row: &|_, _| bar.inc(1), stop: &AtomicBool::new(false) };
+        let rendered = render_sampled(&scene, &order, self.sampling.sampling(), &onlooker);
         let seconds = begun.elapsed().as_secs_f64();
         bar.finish_and_clear();
         let raster = rendered.map_err(|error| Failure::scene(format!("{name}: {error}")))?;

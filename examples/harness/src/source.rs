@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use nostray::{Scalar, Scene};
+use nostray::{Projection, Scalar, Scene};
 
 use crate::assemble::Assembly;
 use crate::flaw::Flaw;
@@ -10,6 +10,7 @@ use crate::gallery::{self, Entry};
 use crate::locate::locate;
 use crate::nff::{self, NffError, NffScene};
 use crate::read::{Syntax, Unreadable, read};
+use crate::viewer::open;
 
 /// A scene that was asked for by name.
 #[derive(Clone, Debug)]
@@ -41,6 +42,25 @@ pub struct Loaded<S: Scalar> {
 }
 
 impl<S: Scalar> Loaded<S> {
+    /// Puts a lens of a diameter before the scene's camera, in focus at a distance; what is left out
+    /// stays as the scene has it.
+    ///
+    /// # Errors
+    /// What makes no lens.
+    pub fn set_lens(&mut self, aperture: Option<f64>, focus: Option<f64>) -> Result<(), String> {
+        let camera = &mut self.assembly.builder.camera;
+        let before = match camera.projection {
+            Projection::ThinLens { aperture, .. } => aperture.to_f64(),
+            _ => 0.0,
+        };
+        let opened = match (aperture, focus) {
+            (None, None) => Ok(()),
+            (None, Some(_)) if before == 0.0 => Err(("focus", "needs an aperture")),
+            (aperture, focus) => open(camera, aperture.unwrap_or(before), focus),
+        };
+        opened.map_err(|(field, message)| format!("--{field}: {message}"))
+    }
+
     /// The checked scene.
     ///
     /// # Errors

@@ -79,6 +79,8 @@ fn surroundings() -> Document {
             up: Triple([0.0, 1.0, 0.0]),
             fov: Some(38.0),
             height: None,
+            aperture: None,
+            focus: None,
         },
         background: Background::Gradient(Gradient {
             bottom: Triple([0.30, 0.33, 0.38]),
