@@ -237,6 +237,7 @@ impl SceneError {
             Flaw::NotPlanar(field) => Self::NotPlanar { at, field },
             Flaw::OffCentre(field) => Self::OffCentre { at, field },
             Flaw::Placed(_) => Self::Placed { at },
+            Flaw::Beyond { table, index, len } => Self::IndexOutOfRange { at, table, index, len },
             Flaw::Index(_) => Self::IndexOutOfRange { at, table: "points", index, len },
         }
     }

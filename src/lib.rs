@@ -86,8 +86,8 @@ pub use scene::{
     Fixed, Form, Hit, Limits, Object, Parts, Profile, Scene, SceneBuilder, Storage, Store,
 };
 pub use shape::{
-    Cone, Cuboid, Curve, Cylinder, Filled, Lathe, Plane, Polygon, Prism, Shape, Sphere, Tables,
-    Torus, Triangle, Winding,
+    Cone, Cuboid, Curve, Cylinder, Filled, Lathe, Plane, Polygon, Prism, Quadric, Shape, Sphere,
+    Tables, Torus, Triangle, Winding,
 };
 pub use solid::{Leaf, Node};
 pub use span::{Boundary, Operator, Passage, Spans};

@@ -215,7 +215,7 @@ impl Random {
     fn shape(&mut self, points: u64) -> Shape<f32> {
         let center = if self.below(2) == 0 { Vec3::ZERO } else { self.point() };
         let radius = self.length();
-        match self.below(9) {
+        match self.below(10) {
             0 | 1 => Shape::Sphere(Sphere { center, radius }),
             2 => Shape::Plane(Plane { normal: self.point(), offset: self.number() }),
             3 => Shape::Box(Cuboid { min: center, max: center + Vec3::splat(radius) }),
@@ -230,6 +230,7 @@ impl Random {
                 let normals = if flat { Triangle::FLAT } else { self.index(points) };
                 Shape::Triangle(Triangle { corners, normals })
             }
+            8 => Shape::Quadric(Quadric { center, first: self.index(2) }),
             7 => Shape::Torus(Torus { center, major: self.length(), minor: radius }),
             _ => {
                 let (first, count) = (self.index(points), self.index(points));

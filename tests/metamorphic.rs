@@ -27,6 +27,20 @@ const SOLIDS: &[(&str, &str)] = &[
     ("slanted", "Cylinder(base: (-1, -0.5, 0.25), top: (1, 0.75, 0.5), radius: 0.5)"),
     ("cone", "Cone(base: (0, -1, 0), base_radius: 1.25, top: (0, 1.5, 0), top_radius: 0)"),
     ("frustum", "Cone(base: (-1, 0, 0), base_radius: 0.5, top: (1, 0.5, 0.25), top_radius: 1)"),
+    (
+        "quadric",
+        "Quadric(squares: (1, 2, 1), products: (0.5, 0, -0.5), linear: (0, 0.5, 0), constant: -1.5)",
+    ),
+    (
+        "saddle",
+        "Intersection([Quadric(squares: (1, 0, -1), linear: (0, -1, 0.25)), \
+         Box(min: (-1, -1, -1), max: (1, 1, 1))])",
+    ),
+    (
+        "two sheets",
+        "Intersection([Quadric(squares: (1, -1, 1), products: (0.5, 0, 0), constant: 0.0625), \
+         Box(min: (-1, -1.25, -1), max: (1, 1.25, 1))])",
+    ),
     ("torus", "Torus(center: (0.25, 0, -0.25), major: 1, minor: 0.375)"),
     ("leaning", "Torus(center: (0, 0, 0), axis: (1, 2, -1), major: 1.25, minor: 0.3125)"),
     ("spindle", "Torus(center: (0, 0.25, 0), axis: (1, 0, 0.5), major: 0.5, minor: 0.875)"),

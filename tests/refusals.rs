@@ -46,6 +46,11 @@ const BAD_SOLIDS: &[(&str, &str, &str)] = &[
         ":3:32: objects[0].solid.Difference[1].Cylinder.top: ",
     ),
     (
+        "no-surface",
+        "Quadric(squares: (1, 1, 1), constant: 1)",
+        "objects[0].solid.Quadric.coefficients: ",
+    ),
+    (
         "no-way-round",
         "Torus(center: (0, 0, 0), axis: (0, 0, 0), major: 1, minor: 0.2)",
         "objects[0].solid.Torus.axis: ",

@@ -10,6 +10,7 @@
 //! | [`Torus`] | recentred, cut into monotone pieces by the derivative of its quartic, refined on its distance |
 //! | [`Lathe`] | pieces counted by the signs at their ends; frusta as cones, cubics by a polynomial of degree 6 |
 //! | [`Prism`] | edges counted by the sides of the ray on which their ends lie; clipped by its caps |
+//! | [`Quadric`] | recentred, the two roots of its polynomial along the ray without cancellation |
 //! | [`Triangle`] | watertight edge functions in the space of the ray |
 //! | [`Polygon`] | the same edge functions, counted along a half-line; concave allowed |
 
@@ -22,6 +23,7 @@ mod outline;
 mod plane;
 mod polygon;
 mod prism;
+mod quadric;
 mod sphere;
 mod torus;
 mod triangle;
@@ -33,6 +35,7 @@ pub use lathe::{Curve, Filled, Lathe};
 pub use plane::Plane;
 pub use polygon::Polygon;
 pub use prism::{Prism, Winding};
+pub use quadric::Quadric;
 pub use sphere::Sphere;
 pub use torus::Torus;
 pub use triangle::Triangle;
@@ -91,6 +94,15 @@ pub enum Flaw {
     Inverted(&'static str),
     /// An index lies beyond the end of a table.
     Index(&'static str),
+    /// An index lies beyond the end of a table, which is named, with its length.
+    Beyond {
+        /// The name of the table.
+        table: &'static str,
+        /// The index.
+        index: u32,
+        /// How many entries the table has.
+        len: u32,
+    },
     /// The vertices do not lie in one plane.
     NotPlanar(&'static str),
     /// A placed shape must have its centre at the local origin.
@@ -149,6 +161,8 @@ pub enum Shape<S: Scalar> {
     Lathe(Lathe<S>),
     /// An extruded polygon.
     Prism(Prism<S>),
+    /// The inside of a quadric.
+    Quadric(Quadric<S>),
     /// A triangle, an open surface.
     Triangle(Triangle),
     /// A plane polygon, an open surface.
@@ -166,6 +180,7 @@ macro_rules! each {
             Shape::Torus($inner) => $body,
             Shape::Lathe($inner) => $body,
             Shape::Prism($inner) => $body,
+            Shape::Quadric($inner) => $body,
             Shape::Triangle($inner) => $body,
             Shape::Polygon($inner) => $body,
         }
@@ -188,7 +203,7 @@ impl<S: Scalar> Shape<S> {
             Self::Sphere(_) | Self::Plane(_) | Self::Box(_) | Self::Cylinder(_) | Self::Cone(_) => {
                 1
             }
-            Self::Torus(_) => 2,
+            Self::Torus(_) | Self::Quadric(_) => 2,
             Self::Lathe(lathe) => lathe.spans_max(),
             Self::Prism(prism) => prism.spans_max(),
             Self::Triangle(_) | Self::Polygon(_) => 1,

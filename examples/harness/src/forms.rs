@@ -54,6 +54,12 @@ impl<S: Scalar> Stock<S> {
                 let vertices = self.pairs(vertices);
                 ("Prism", Form::Prism { vertices, height: s(height) })
             }
+            Solid::Quadric { center, squares, products, linear, constant } => {
+                let [center, squares, products, linear] =
+                    [center, squares, products, linear].map(v);
+                let constant = s(constant);
+                ("Quadric", Form::Quadric { center, squares, products, linear, constant })
+            }
             Solid::Triangle { a, b, c, normals } => {
                 let normals = normals.map(|normals| normals.0.map(v));
                 ("Triangle", Form::Triangle { corners: [a, b, c].map(v), normals })

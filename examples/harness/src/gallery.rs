@@ -46,6 +46,7 @@ pub static GALLERY: &[Entry] = &[
     file!("lights", "a spot, a lamp and the moon; coloured glass stains the light"),
     file!("links", "three links that only hold together as three"),
     file!("mirrors", "two mirrors that face each other"),
+    file!("rings", "rings, a bitten doughnut, apples, a bowl and a vase: tori and quadrics"),
     file!("solids", "one of each solid"),
     Entry {
         name: "sphereflake",

@@ -71,6 +71,19 @@ pub enum Form<'a, S: Scalar> {
         /// The height, greater than 0.
         height: S,
     },
+    /// Where a polynomial of the second degree is not positive, in coordinates from a point on.
+    Quadric {
+        /// The origin of these coordinates.
+        center: S::Vec3,
+        /// The coefficients of x², y² and z².
+        squares: S::Vec3,
+        /// The coefficients of xy, yz and zx.
+        products: S::Vec3,
+        /// The coefficients of x, y and z.
+        linear: S::Vec3,
+        /// What is left where all three are 0.
+        constant: S,
+    },
     /// A triangle, an open surface.
     Triangle {
         /// The corners, counterclockwise from outside.

@@ -2,6 +2,7 @@
 
 mod flat;
 mod outline;
+mod quadric;
 mod torus;
 
 use super::{Form, SceneBuilder, Storage, Store, add_narrow};
@@ -62,6 +63,9 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
             }
             Form::Lathe { center, profile } => self.realise_lathe(center, profile, to_world),
             Form::Prism { vertices, height } => self.realise_prism(vertices, height, to_world),
+            Form::Quadric { center, squares, products, linear, constant } => {
+                self.realise_quadric(center, [squares, products, linear], constant, to_world)
+            }
             Form::Triangle { corners, normals } => {
                 Ok((self.realise_triangle(corners, normals, to_world, &inverse)?, None))
             }

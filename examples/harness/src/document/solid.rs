@@ -92,6 +92,24 @@ pub enum Solid {
         /// The height.
         height: f64,
     },
+    /// Where a polynomial of the second degree is not positive; what is left out of it is 0.
+    Quadric {
+        /// The origin of its coordinates; that of the scene if left out.
+        #[serde(default)]
+        center: Triple,
+        /// The coefficients of x², y² and z².
+        #[serde(default)]
+        squares: Triple,
+        /// The coefficients of xy, yz and zx.
+        #[serde(default)]
+        products: Triple,
+        /// The coefficients of x, y and z.
+        #[serde(default)]
+        linear: Triple,
+        /// What is left where all three are 0.
+        #[serde(default)]
+        constant: f64,
+    },
     /// A triangle, an open surface.
     Triangle {
         /// The first corner; the three are counterclockwise from outside.

@@ -2,8 +2,8 @@
 //! on both sides and its shadow is seen.
 
 use nostray::{
-    Affine, Axis, Blend, Fixed, Form, Fresnel, Material, Paint, Pattern, Profile, Rgb, Scalar,
-    SceneBuilder, SceneError, Stop, Texture,
+    Affine, Axis, Blend, Fixed, Form, Fresnel, Material, Operator, Paint, Pattern, Profile, Rgb,
+    Scalar, SceneBuilder, SceneError, Stop, Texture,
 };
 
 use super::{rgb, shoot, sun, tenths};
@@ -24,7 +24,8 @@ pub(super) fn trace<S: Scalar>(
     picture(shrink, sink, spindle)?;
     picture(shrink, sink, lines)?;
     picture(shrink, sink, curves)?;
-    picture(shrink, sink, prism)
+    picture(shrink, sink, prism)?;
+    picture(shrink, sink, hyperboloid)
 }
 
 /// One picture. What a solid adds lies about the ball of radius 1 around the origin and has the
@@ -128,6 +129,22 @@ fn prism<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneEr
     let vertices = pairs([(0, 10), (6, -8), (-9, 3), (9, 3), (-6, -8)]);
     let form = Form::Prism { vertices: &vertices, height: S::HALF };
     scene.leaf(form, &turned(Axis::X, 60), material)
+}
+
+/// What lies between two sheets, cut off by a ball.
+fn hyperboloid<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneError> {
+    let quadric = Form::Quadric {
+        center: S::Vec3::default(),
+        squares: tenths::<S>(20, -10, 10),
+        products: tenths::<S>(3, 0, 2),
+        linear: tenths::<S>(0, 1, 0),
+        constant: S::from_ratio(1, 10),
+    };
+    scene.open(Operator::Difference)?;
+    let ball = Form::Sphere { center: S::Vec3::default(), radius: S::ONE };
+    scene.leaf(ball, &Affine::identity(), material)?;
+    scene.leaf(quadric, &turned(Axis::Z, 20), material)?;
+    scene.close(material)
 }
 
 fn turned<S: Scalar>(axis: Axis, degrees: i32) -> Affine<S> {
