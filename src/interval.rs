@@ -226,18 +226,17 @@ impl<T: Real> Algebra for Interval<T> {
 
     #[inline]
     fn over(self, divisor: Self) -> Self {
-        if divisor.is_negative() {
-            return (-self).over(-divisor);
-        }
-        if self.is_zero() {
-            return self;
+        let negative = divisor.is_negative();
+        let (this, divisor) = if negative { (-self, -divisor) } else { (self, divisor) };
+        if this.is_zero() {
+            return this;
         }
         if !divisor.is_positive() {
             return Self::line();
         }
-        let low = if self.low < T::ZERO { divisor.low } else { divisor.high };
-        let high = if self.high > T::ZERO { divisor.low } else { divisor.high };
-        Self::outward(self.low / low, self.high / high)
+        let low = if this.low < T::ZERO { divisor.low } else { divisor.high };
+        let high = if this.high > T::ZERO { divisor.low } else { divisor.high };
+        Self::outward(this.low / low, this.high / high)
     }
 
     /// By the middle m and the half width r: sin(m + h) = sin m · cos h + cos m · sin h, where

@@ -261,7 +261,14 @@ impl<S: Scalar> Shape<S> {
     pub fn spans_until(&self, sight: &Sight<'_, S>, until: S, mut emit: impl FnMut(Span<S>)) {
         let open = self.is_open();
         let emit = |span: Span<S>| emit(if open { span } else { span.solid() });
-        each!(self, shape => Primitive::<S>::spans_until(shape, sight, until, emit));
+        match self {
+            Self::Torus(shape) => spans_apart(shape, sight, until, emit),
+            Self::Lathe(shape) => spans_apart(shape, sight, until, emit),
+            Self::Prism(shape) => spans_apart(shape, sight, until, emit),
+            Self::Quadric(shape) => spans_apart(shape, sight, until, emit),
+            Self::Implicit(shape) => spans_apart(shape, sight, until, emit),
+            _ => each!(self, shape => Primitive::<S>::spans_until(shape, sight, until, emit)),
+        }
     }
 
     /// The point of a face nearest to a local point close to it.
@@ -292,6 +299,18 @@ impl<S: Scalar> Shape<S> {
     pub fn uv(&self, local: S::Vec3, face: u32, tables: &Tables<'_, S>) -> [S; 2] {
         each!(self, shape => Primitive::<S>::uv(shape, local, face, tables))
     }
+}
+
+/// The spans of a solid whose boundaries are found in many steps. What these keep on the stack is
+/// there for such solids only.
+#[inline(never)]
+fn spans_apart<S: Scalar>(
+    shape: &impl Primitive<S>,
+    sight: &Sight<'_, S>,
+    until: S,
+    emit: impl FnMut(Span<S>),
+) {
+    shape.spans_until(sight, until, emit);
 }
 
 fn check_point<S: Scalar>(p: S::Vec3, field: &'static str) -> Result<(), Flaw> {

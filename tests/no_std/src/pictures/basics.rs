@@ -10,7 +10,7 @@ use super::{rgb, shoot, tenths};
 /// Room for these five objects and no more: this picture is for the smallest boards, too.
 type Builder<S> = SceneBuilder<S, Fixed<5, 8, 3, 3>>;
 
-const SIZE: [u32; 2] = [48, 36];
+const SIZE: [u32; 2] = [24, 18];
 
 /// Traces the picture and hands over the light of each pixel, row by row.
 #[inline(never)]

@@ -11,7 +11,7 @@ use super::{rgb, shoot, sun, tenths};
 /// Room for the floor and one solid.
 type Builder<S> = SceneBuilder<S, Fixed<4, 8, 4, 32, 64>>;
 
-const SIZE: [u32; 2] = [24, 18];
+const SIZE: [u32; 2] = [12, 9];
 
 pub(super) fn trace<S: Scalar>(
     shrink: u32,
@@ -25,7 +25,8 @@ pub(super) fn trace<S: Scalar>(
     picture(shrink, sink, lines)?;
     picture(shrink, sink, curves)?;
     picture(shrink, sink, prism)?;
-    picture(shrink, sink, implicit)?;
+    // Costs as much as all others together.
+    picture(2 * shrink, sink, implicit)?;
     picture(shrink, sink, hyperboloid)
 }
 

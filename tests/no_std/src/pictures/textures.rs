@@ -11,7 +11,7 @@ use super::{rgb, shoot, sun, tenths};
 /// Room for the solids that show a pattern, and for the patterns that it is made of.
 type Builder<S> = SceneBuilder<S, Fixed<4, 8, 4, 8, 0, 12>>;
 
-const SIZE: [u32; 2] = [24, 18];
+const SIZE: [u32; 2] = [12, 9];
 
 pub(super) fn trace<S: Scalar>(
     shrink: u32,
