@@ -15,6 +15,10 @@ const DEPTH: u16 = 4;
 
 /// A picture in the making, in one of the two formats.
 #[derive(Debug)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "there is one of it, in memory that is lent for either"
+)]
 pub enum Picture {
     /// Numbers of 32 bits.
     Q16(Render<'static, Q16, 5, 16>),
