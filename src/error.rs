@@ -103,6 +103,23 @@ pub enum SceneError {
         /// Which parameter.
         field: &'static str,
     },
+    /// A triangle of a mesh cannot be one of it.
+    Triangle {
+        /// Where.
+        at: Item,
+        /// Which triangle.
+        triangle: u32,
+        /// What is wrong with it.
+        flaw: &'static str,
+    },
+    /// The hierarchy of a mesh is not one over its triangles.
+    Hierarchy {
+        /// Where.
+        at: Item,
+        /// The first node, counted from the root, whose box does not hold what is below it, or that hangs
+        /// elsewhere than it says; the number of nodes if they hold too few triangles.
+        branch: u32,
+    },
     /// A placement flattens space, or its two matrices are not inverse to each other.
     SingularPlacement {
         /// Where.
@@ -244,6 +261,8 @@ impl SceneError {
             Flaw::Empty(field) => Self::Empty { at, field },
             Flaw::Inverted(field) => Self::Inverted { at, field },
             Flaw::NotPlanar(field) => Self::NotPlanar { at, field },
+            Flaw::Triangle(triangle, flaw) => Self::Triangle { at, triangle, flaw },
+            Flaw::Hierarchy(branch) => Self::Hierarchy { at, branch },
             Flaw::OffCentre(field) => Self::OffCentre { at, field },
             Flaw::Placed(_) => Self::Placed { at },
             Flaw::Index(_) => Self::IndexOutOfRange { at, table: "points", index, len },
@@ -279,6 +298,10 @@ impl fmt::Display for SceneError {
             Self::Empty { at, field } => write!(f, "{at}: {field} has no extent"),
             Self::Inverted { at, field } => write!(f, "{at}: {field} lies below its counterpart"),
             Self::NotPlanar { at, field } => write!(f, "{at}: {field} do not lie in one plane"),
+            Self::Triangle { at, triangle, flaw } => write!(f, "{at}: triangle {triangle} {flaw}"),
+            Self::Hierarchy { at, branch } => {
+                write!(f, "{at}: the hierarchy does not fit the triangles (see its node {branch})")
+            }
             Self::SingularPlacement { at } => write!(f, "{at}: the placement has no inverse"),
             Self::Placed { at } => write!(f, "{at}: this shape takes no placement"),
             Self::OffCentre { at, field } => {

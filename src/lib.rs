@@ -9,7 +9,7 @@
 //! | [`scalar`] | the number that everything is made of, its companions, and the vector of three |
 //! | [`fixed_point`] | that number in fixed point; the floats need no names |
 //! | [`ray`], [`place`] | rays and where they start; the coordinates of placed solids |
-//! | [`span`], [`bounds`] | intervals of a ray and set operations on them; boxes |
+//! | [`span`], [`bounds`], [`hierarchy`] | intervals of a ray and set operations on them; boxes, and boxes in boxes |
 //! | [`shape`], [`solid`] | the solids; trees of them by set operations |
 //! | [`stats`] | what was done |
 //! | [`color`], [`texture`], [`material`] | what a surface looks like |
@@ -39,6 +39,8 @@ pub mod place;
 pub mod span;
 
 pub mod bounds;
+
+pub mod hierarchy;
 
 pub mod shape;
 
@@ -78,6 +80,7 @@ pub use error::{Item, SceneError};
 pub use fixed;
 pub use fixed_point::{Q16, Q32};
 pub use glam;
+pub use hierarchy::Branch;
 pub use light::{Attenuation, Light, Spotlight};
 pub use material::{Fresnel, Highlight, Material};
 pub use place::{Affine, Placement};
@@ -85,11 +88,12 @@ pub use ray::Ray;
 pub use render::{Depth, Pixel, Render, Step};
 pub use scalar::{Axis, Number, Real, Scalar, Vector};
 pub use scene::{
-    Fixed, Form, Hit, Limits, Object, Parts, Profile, Scene, SceneBuilder, Storage, Store,
+    Corners, Fixed, Form, Heights, Hit, Limits, Object, Parts, Profile, Scene, SceneBuilder,
+    Storage, Store, Triangles,
 };
 pub use shape::{
-    Cone, Cuboid, Curve, Cylinder, Filled, Implicit, Lathe, Plane, Polygon, Prism, Quadric, Shape,
-    Sphere, Tables, Torus, Triangle, Winding,
+    Cone, Cuboid, Curve, Cylinder, Filled, Implicit, Lathe, Mesh, Plane, Polygon, Prism, Quadric,
+    Shape, Sphere, Tables, Torus, Triangle, Winding,
 };
 pub use solid::{Leaf, Node};
 pub use span::{Boundary, Operator, Passage, Spans};

@@ -213,7 +213,7 @@ impl<'a, S: Scalar> Geometry<'a, S> {
         let sight = self.sight(node, leaf, line);
         let settle = start.filter(|start| start.node != node);
         let open = leaf.shape.is_open();
-        leaf.shape.spans_until(&sight, high, |mut span| {
+        leaf.shape.spans_within(&sight, [low, high], |mut span| {
             for end in [&mut span.enter, &mut span.exit] {
                 if settle.is_some_and(|start| self.at_start(line, start, leaf, *end)) {
                     end.t = S::ZERO;

@@ -98,7 +98,7 @@ impl<S: Exact> Subject<S> {
         leaf.shape
             .spans(&sight, |span| found.extend([span.enter.t.to_f64(), span.exit.t.to_f64()]));
         assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "{found:?}");
-        assert!(found.len() <= 2 * usize::from(leaf.shape.spans_max()));
+        assert!(found.len() <= 2 * leaf.shape.spans_max() as usize);
         found
     }
 

@@ -4,7 +4,7 @@ mod form;
 mod paint;
 mod realise;
 
-pub use form::{Form, Profile};
+pub use form::{Corners, Form, Heights, Profile, Triangles};
 
 use super::check::check_object;
 use super::{Object, Parts, Scene};
@@ -12,6 +12,7 @@ use crate::background::Background;
 use crate::camera::{Camera, Projection};
 use crate::color::Rgb;
 use crate::error::{Item, SceneError};
+use crate::hierarchy::Branch;
 use crate::light::Light;
 use crate::material::Material;
 use crate::place::{Affine, Placement};
@@ -67,11 +68,13 @@ pub trait Storage {
     type Data<T: Copy>: Store<T>;
     /// The bytes of images.
     type Pixels<T: Copy>: Store<T>;
+    /// The table of branches of hierarchies.
+    type Branches<T: Copy>: Store<T>;
 }
 
 /// Tables of fixed size, without a heap: so many objects; nodes and placements; materials,
 /// textures with their images and channels, and lights; vertices and stops of ramps; numbers, indices
-/// and bytes of programs; bytes of images.
+/// and bytes of programs; bytes of images; branches of hierarchies.
 #[derive(Clone, Copy, Debug)]
 pub struct Fixed<
     const OBJECTS: usize,
@@ -80,10 +83,18 @@ pub struct Fixed<
     const POINTS: usize,
     const DATA: usize = 0,
     const PIXELS: usize = 0,
+    const BRANCHES: usize = 0,
 >;
 
-impl<const O: usize, const N: usize, const M: usize, const P: usize, const D: usize, const X: usize>
-    Storage for Fixed<O, N, M, P, D, X>
+impl<
+    const O: usize,
+    const N: usize,
+    const M: usize,
+    const P: usize,
+    const D: usize,
+    const X: usize,
+    const B: usize,
+> Storage for Fixed<O, N, M, P, D, X, B>
 {
     type Objects<T: Copy> = heapless::Vec<T, O>;
     type Nodes<T: Copy> = heapless::Vec<T, N>;
@@ -91,6 +102,7 @@ impl<const O: usize, const N: usize, const M: usize, const P: usize, const D: us
     type Points<T: Copy> = heapless::Vec<T, P>;
     type Data<T: Copy> = heapless::Vec<T, D>;
     type Pixels<T: Copy> = heapless::Vec<T, X>;
+    type Branches<T: Copy> = heapless::Vec<T, B>;
 }
 
 /// A scene that is put together piece by piece.
@@ -120,6 +132,7 @@ pub struct SceneBuilder<S: Scalar, M: Storage = Fixed<16, 64, 16, 64>> {
     numbers: M::Data<S>,
     indices: M::Data<u32>,
     code: M::Data<u8>,
+    branches: M::Branches<Branch<S>>,
     open: heapless::Vec<u32, NESTING_MAX>,
     /// The entries of the tables that belong to finished objects.
     finished: Finished,
@@ -134,6 +147,7 @@ struct Finished {
     numbers: u32,
     indices: u32,
     code: u32,
+    branches: u32,
 }
 
 impl<S: Scalar, M: Storage> Default for SceneBuilder<S, M> {
@@ -190,6 +204,7 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
             numbers: Default::default(),
             indices: Default::default(),
             code: Default::default(),
+            branches: Default::default(),
             open: heapless::Vec::new(),
             finished: Finished::default(),
         }
@@ -294,6 +309,7 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
                 numbers: self.numbers.entries(),
                 indices: self.indices.entries(),
                 code: self.code.entries(),
+                branches: self.branches.entries(),
             },
             camera: self.camera,
             background: self.background,
@@ -324,6 +340,7 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
                     numbers: self.numbers.entries().len() as u32,
                     indices: self.indices.entries().len() as u32,
                     code: self.code.entries().len() as u32,
+                    branches: self.branches.entries().len() as u32,
                 };
                 Ok(())
             }
@@ -356,6 +373,7 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
         self.numbers.truncate(self.finished.numbers as usize);
         self.indices.truncate(self.finished.indices as usize);
         self.code.truncate(self.finished.code as usize);
+        self.branches.truncate(self.finished.branches as usize);
         self.open.clear();
     }
 }

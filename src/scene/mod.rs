@@ -5,7 +5,7 @@ mod check;
 mod structure;
 mod trace;
 
-pub use build::{Fixed, Form, Profile, SceneBuilder, Storage, Store};
+pub use build::{Corners, Fixed, Form, Heights, Profile, SceneBuilder, Storage, Store, Triangles};
 pub use structure::{Structure, structure};
 pub use trace::Hit;
 
@@ -150,7 +150,7 @@ impl<'a, S: Scalar> Scene<'a, S> {
     /// The direction need not have unit length; t counts in lengths of it.
     ///
     /// # Errors
-    /// If there is no such object, or if the buffer has less room than [`limits`](Self::limits) tells.
+    /// If there is no such object, or if the buffer has less room than [`room`](Self::room) tells.
     pub fn spans<'b>(
         &self,
         object: u32,
@@ -158,10 +158,12 @@ impl<'a, S: Scalar> Scene<'a, S> {
         buffer: &'b mut [Boundary<S>],
     ) -> Result<Spans<'b, S>, SceneError> {
         let at = Item::Object(object);
-        let len = self.parts.objects.len() as u32;
-        let unknown = SceneError::IndexOutOfRange { at, table: "objects", index: object, len };
+        let needed = self.room(object)?;
+        let unknown = self.no_object(object);
         let object = self.parts.objects.get(object as usize).ok_or(unknown)?;
-        self.check_room(buffer.len())?;
+        if needed as usize > buffer.len() {
+            return Err(SceneError::SpanOverflow { at, needed, limit: buffer.len() as u32 });
+        }
         let line = Line::new(ray, None);
         Ok(self.geometry().evaluate(object.first, object.count, &line, buffer, || ()))
     }
@@ -169,6 +171,23 @@ impl<'a, S: Scalar> Scene<'a, S> {
     /// What a paint is at a spot, and which cells of its textures the spot lies in.
     pub fn see(&self, paint: Paint<S>, spot: &Spot<'_, S>) -> Seen<S> {
         self.textures().see(paint, spot, &mut ())
+    }
+
+    /// The room that [`spans`](Self::spans) needs for an object: no more than [`limits`](Self::limits) tells,
+    /// unless the object is a mesh, which may meet a ray as often as it has triangles.
+    ///
+    /// # Errors
+    /// If there is no such object.
+    pub fn room(&self, object: u32) -> Result<u32, SceneError> {
+        let unknown = self.no_object(object);
+        let object = self.parts.objects.get(object as usize).ok_or(unknown)?;
+        let leaf = self.geometry().leaf(object.first);
+        Ok(leaf.map_or(self.limits.boundaries, |leaf| leaf.shape.boundaries_max()))
+    }
+
+    fn no_object(&self, index: u32) -> SceneError {
+        let len = self.parts.objects.len() as u32;
+        SceneError::IndexOutOfRange { at: Item::Object(index), table: "objects", index, len }
     }
 
     /// There is room for the boundaries of any solid of the scene.

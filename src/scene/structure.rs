@@ -4,6 +4,7 @@
 use super::Object;
 use crate::error::{Item, SceneError};
 use crate::scalar::Scalar;
+use crate::shape::Shape;
 use crate::solid::{Leaf, NESTING_MAX, Node};
 use crate::span::Operator;
 
@@ -11,7 +12,7 @@ use crate::span::Operator;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Structure {
     /// The boundaries that the evaluation of one solid may hold at a time: the room that
-    /// [`Render`](crate::render::Render) needs.
+    /// [`Render`](crate::render::Render) needs. A mesh that is an object of its own needs no list.
     pub boundaries: u32,
     /// The surfaces that a ray can go through at most, all objects together.
     pub crossings: u32,
@@ -188,7 +189,7 @@ pub(super) const fn object_structure<S: Scalar>(
     let vacant = Open { operator: Operator::Union, node: 0, end: 0, operands: 0 };
     let mut nest = Nest { open: [vacant; NESTING_MAX], depth: 0 };
     let (mut node, mut finished) = (object.first, false);
-    let (mut crossings, mut operators) = (0_u32, false);
+    let (mut crossings, mut operators, mut listed) = (0_u32, false, true);
     while let Some((next, further)) = rest.split_first() {
         if finished {
             return Err(SceneError::StrayNodes { at, node });
@@ -209,7 +210,8 @@ pub(super) const fn object_structure<S: Scalar>(
                 if let Err(error) = check_leaf(from, leaf, operator, [materials, placements]) {
                     return Err(error);
                 }
-                crossings = crossings.saturating_add(2 * leaf.shape.spans_max() as u32);
+                crossings = crossings.saturating_add(leaf.shape.boundaries_max());
+                listed = !matches!(leaf.shape, Shape::Mesh(_));
                 finished = match nest.finish(node + 1) {
                     Ok(finished) => finished,
                     Err(error) => return Err(error),
@@ -222,13 +224,23 @@ pub(super) const fn object_structure<S: Scalar>(
     if !finished {
         return Err(SceneError::StrayNodes { at, node });
     }
-    // A merge reads two lists and writes a third that is no longer than both; the others wait.
-    let needed = if operators { crossings.saturating_mul(2) } else { crossings };
+    let needed = room(crossings, operators, listed);
     let limit = u16::MAX as u32;
     if needed > limit {
         return Err(SceneError::SpanOverflow { at, needed, limit });
     }
     Ok(Structure { boundaries: needed, crossings })
+}
+
+/// The boundaries that the lists of an object may hold, of so many that there may be. A merge reads two lists
+/// and writes a third that is no longer than both; the others wait. A mesh that stands alone is not
+/// listed, but searched for one boundary at a time.
+const fn room(crossings: u32, operators: bool, listed: bool) -> u32 {
+    match (operators, listed) {
+        (true, _) => crossings.saturating_mul(2),
+        (false, true) => crossings,
+        (false, false) => 2,
+    }
 }
 
 /// Checks the indices of a leaf, into tables of these lengths, and whether it may be an open

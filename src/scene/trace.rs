@@ -177,29 +177,20 @@ impl<'a, S: Scalar> Scene<'a, S> {
         node: u32,
         leaf: &Leaf<S>,
         line: &Line<S>,
-        [after, before]: [S; 2],
+        window: [S; 2],
         tally: &mut impl Tally,
     ) -> (bool, Option<Boundary<S>>) {
         tally.count(Event::LeafTest);
         let sight = self.geometry().sight(node, leaf, line);
-        let open = leaf.shape.is_open();
-        let (mut inside, mut first) = (false, None);
-        leaf.shape.spans_until(&sight, before, |span| {
-            let mut offer = |end: End<S>, passage: Passage| {
-                if end.t > after && end.t < before && first.is_none() {
-                    let End { t, face } = end;
-                    first = Some(Boundary { t, node, face, passage, inverted: false });
-                }
-            };
-            if open {
-                offer(span.enter, Passage::Touch);
-            } else {
-                inside |= span.enter.t <= after && after < span.exit.t;
-                offer(span.enter, Passage::Enter);
-                offer(span.exit, Passage::Leave);
-            }
+        let (inside, first) = leaf.shape.first(&sight, window);
+        let boundary = first.map(|(End { t, face }, passage)| Boundary {
+            t,
+            node,
+            face,
+            passage,
+            inverted: false,
         });
-        (inside, first)
+        (inside, boundary)
     }
 
     /// The share of a light that arrives along a ray from a surface: nothing behind an opaque

@@ -266,6 +266,8 @@ impl<S: Scalar> Primitive<S> for Lathe<S> {
     /// on the other, which is decided once for each, so each piece is known to be crossed an odd number of times or an
     /// even one before any crossing is computed, and a closed profile always an even number.
     #[inline]
+    // Out of line: what it keeps on the stack is there for such solids only.
+    #[inline(never)]
     fn spans(&self, sight: &Sight<'_, S>, emit: impl FnMut(Span<S>)) {
         let (ray, departure) = match sight.start {
             None => (Local::recentred(sight.line, sight.place, self.center), None),

@@ -14,6 +14,7 @@
 //! | [`Triangle`] | watertight edge functions in the space of the ray |
 //! | [`Polygon`] | the same edge functions, counted along a half-line; concave allowed |
 //! | [`Implicit`] | intervals of the formula and of its slope, halved until each proves its roots |
+//! | [`Mesh`] | the same again, under a hierarchy of boxes; open or closed |
 
 mod cone;
 mod crossings;
@@ -21,6 +22,7 @@ mod cuboid;
 mod cylinder;
 mod implicit;
 mod lathe;
+mod mesh;
 mod outline;
 mod plane;
 mod polygon;
@@ -35,6 +37,7 @@ pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use implicit::{Implicit, ProgramFlaw, program};
 pub use lathe::{Curve, Filled, Lathe};
+pub use mesh::Mesh;
 pub use plane::Plane;
 pub use polygon::Polygon;
 pub use prism::{Prism, Winding};
@@ -44,10 +47,11 @@ pub use torus::Torus;
 pub use triangle::Triangle;
 
 use crate::bounds::Bounds;
+use crate::hierarchy::Branch;
 use crate::place::Placement;
 use crate::ray::{Line, Start};
 use crate::scalar::{Number, Real, Scalar, Vector};
-use crate::span::Span;
+use crate::span::{End, Passage, Span};
 
 /// A ray as one leaf sees it.
 #[derive(Clone, Copy, Debug)]
@@ -73,11 +77,14 @@ pub struct Tables<'a, S: Scalar> {
     pub indices: &'a [u32],
     /// Programs.
     pub code: &'a [u8],
+    /// Hierarchies over what shapes are made of.
+    pub branches: &'a [Branch<S>],
 }
 
 impl<S: Scalar> Tables<'_, S> {
     /// Nothing.
-    pub const EMPTY: Self = Self { points: &[], numbers: &[], indices: &[], code: &[] };
+    pub const EMPTY: Self =
+        Self { points: &[], numbers: &[], indices: &[], code: &[], branches: &[] };
 }
 
 /// What is wrong with a shape's parameters.
@@ -108,6 +115,10 @@ pub enum Flaw {
     },
     /// The vertices do not lie in one plane.
     NotPlanar(&'static str),
+    /// A triangle of a mesh cannot be one of it; what it does is told.
+    Triangle(u32, &'static str),
+    /// A node of a hierarchy does not hold what is below it, or does not hang where it says.
+    Hierarchy(u32),
     /// A placed shape must have its centre at the local origin.
     OffCentre(&'static str),
     /// The shape is given in the scene's coordinates and takes no placement.
@@ -139,6 +150,39 @@ pub trait Primitive<S: Scalar> {
     #[inline]
     fn spans_until(&self, sight: &Sight<'_, S>, _: S, emit: impl FnMut(Span<S>)) {
         self.spans(sight, emit);
+    }
+    /// The same of a part of the ray: only the boundaries after its start and up to its end are asked for, and
+    /// whether its start is inside.
+    #[inline]
+    fn spans_within(&self, sight: &Sight<'_, S>, window: [S; 2], emit: impl FnMut(Span<S>)) {
+        let [_, until] = window;
+        self.spans_until(sight, until, emit);
+    }
+    /// Whether a place of the ray is inside, and the first boundary after it and before another.
+    #[inline]
+    fn first(
+        &self,
+        sight: &Sight<'_, S>,
+        [after, before]: [S; 2],
+        open: bool,
+    ) -> (bool, Option<(End<S>, Passage)>) {
+        let (mut inside, mut first) = (false, None);
+        self.spans_until(sight, before, |span| {
+            let mut offer = |end: End<S>, passage: Passage| {
+                if end.t > after && end.t < before && first.is_none() {
+                    first = Some((end, passage));
+                }
+            };
+            if open {
+                offer(span.enter, Passage::Touch);
+            } else {
+                let span = span.solid();
+                inside |= span.enter.t <= after && after < span.exit.t;
+                offer(span.enter, Passage::Enter);
+                offer(span.exit, Passage::Leave);
+            }
+        });
+        (inside, first)
     }
     /// The point of a face nearest to a local point close to it.
     fn snap(&self, local: S::WideVec, face: u32, tables: &Tables<'_, S>) -> S::Vec3;
@@ -180,6 +224,8 @@ pub enum Shape<S: Scalar> {
     Polygon(Polygon<S>),
     /// Where a formula is less than 0, within a box.
     Implicit(Implicit<S>),
+    /// Many triangles, open or closed.
+    Mesh(Mesh),
 }
 
 macro_rules! each {
@@ -197,6 +243,7 @@ macro_rules! each {
             Shape::Triangle($inner) => $body,
             Shape::Polygon($inner) => $body,
             Shape::Implicit($inner) => $body,
+            Shape::Mesh($inner) => $body,
         }
     };
 }
@@ -207,21 +254,34 @@ impl<S: Scalar> Shape<S> {
         match self {
             Self::Triangle(_) | Self::Polygon(_) => true,
             Self::Lathe(lathe) => lathe.is_open(),
+            Self::Mesh(mesh) => !mesh.closed,
             _ => false,
         }
     }
 
     /// The greatest number of spans along any ray.
-    pub const fn spans_max(&self) -> u16 {
+    ///
+    /// Nothing less is certain of a mesh than that a ray meets each triangle once.
+    pub const fn spans_max(&self) -> u32 {
         match self {
             Self::Sphere(_) | Self::Plane(_) | Self::Box(_) | Self::Cylinder(_) | Self::Cone(_) => {
                 1
             }
             Self::Torus(_) | Self::Quadric(_) => 2,
-            Self::Lathe(lathe) => lathe.spans_max(),
-            Self::Prism(prism) => prism.spans_max(),
+            Self::Lathe(lathe) => lathe.spans_max() as u32,
+            Self::Prism(prism) => prism.spans_max() as u32,
             Self::Triangle(_) | Self::Polygon(_) => 1,
-            Self::Implicit(implicit) => implicit.spans,
+            Self::Implicit(implicit) => implicit.spans as u32,
+            Self::Mesh(mesh) if mesh.closed => mesh.triangles / 2,
+            Self::Mesh(mesh) => mesh.triangles,
+        }
+    }
+
+    /// The greatest number of boundaries along any ray.
+    pub const fn boundaries_max(&self) -> u32 {
+        match self {
+            Self::Mesh(mesh) => mesh.triangles,
+            _ => 2 * self.spans_max(),
         }
     }
 
@@ -258,17 +318,33 @@ impl<S: Scalar> Shape<S> {
     /// The same, but only the boundaries up to `until` are asked for: others may be missing, or lie
     /// elsewhere beyond it.
     #[inline]
-    pub fn spans_until(&self, sight: &Sight<'_, S>, until: S, mut emit: impl FnMut(Span<S>)) {
+    pub fn spans_until(&self, sight: &Sight<'_, S>, until: S, emit: impl FnMut(Span<S>)) {
+        self.spans_within(sight, [-S::FAR, until], emit);
+    }
+
+    /// The same of a part of the ray: only the boundaries after its start and up to its end are asked for, and
+    /// whether its start is inside.
+    #[inline]
+    pub(crate) fn spans_within(
+        &self,
+        sight: &Sight<'_, S>,
+        window: [S; 2],
+        mut emit: impl FnMut(Span<S>),
+    ) {
         let open = self.is_open();
         let emit = |span: Span<S>| emit(if open { span } else { span.solid() });
-        match self {
-            Self::Torus(shape) => spans_apart(shape, sight, until, emit),
-            Self::Lathe(shape) => spans_apart(shape, sight, until, emit),
-            Self::Prism(shape) => spans_apart(shape, sight, until, emit),
-            Self::Quadric(shape) => spans_apart(shape, sight, until, emit),
-            Self::Implicit(shape) => spans_apart(shape, sight, until, emit),
-            _ => each!(self, shape => Primitive::<S>::spans_until(shape, sight, until, emit)),
-        }
+        each!(self, shape => Primitive::<S>::spans_within(shape, sight, window, emit));
+    }
+
+    /// Whether a place of the ray is inside, and the first boundary after it and before another.
+    #[inline]
+    pub(crate) fn first(
+        &self,
+        sight: &Sight<'_, S>,
+        window: [S; 2],
+    ) -> (bool, Option<(End<S>, Passage)>) {
+        let open = self.is_open();
+        each!(self, shape => Primitive::<S>::first(shape, sight, window, open))
     }
 
     /// The point of a face nearest to a local point close to it.
@@ -299,18 +375,6 @@ impl<S: Scalar> Shape<S> {
     pub fn uv(&self, local: S::Vec3, face: u32, tables: &Tables<'_, S>) -> [S; 2] {
         each!(self, shape => Primitive::<S>::uv(shape, local, face, tables))
     }
-}
-
-/// The spans of a solid whose boundaries are found in many steps. What these keep on the stack is
-/// there for such solids only.
-#[inline(never)]
-fn spans_apart<S: Scalar>(
-    shape: &impl Primitive<S>,
-    sight: &Sight<'_, S>,
-    until: S,
-    emit: impl FnMut(Span<S>),
-) {
-    shape.spans_until(sight, until, emit);
 }
 
 fn check_point<S: Scalar>(p: S::Vec3, field: &'static str) -> Result<(), Flaw> {

@@ -41,19 +41,30 @@ impl Triangle {
 
     /// The shares of the corners in a point of the triangle.
     fn shares<S: Scalar>(&self, p: S::Vec3, tables: &Tables<'_, S>) -> [S::Wide; 3] {
-        let (zero, one) = (S::Wide::ZERO, S::Wide::ONE);
-        let Some([a, b, c]) = self.wide_corners::<S>(tables) else {
-            return [one, zero, zero];
-        };
-        let normal = (b - a).cross(c - a);
-        let p = S::widen_vec(p);
-        let inverse = one / normal.length_squared();
-        let u = (p - a).cross(c - a).dot(normal) * -inverse;
-        let v = (b - a).cross(p - a).dot(normal) * inverse;
-        let (u, v) = (u.clamp(zero, one), v.clamp(zero, one));
-        let (u, v) = if u + v > one { (u / (u + v), v / (u + v)) } else { (u, v) };
-        [one - u - v, u, v]
+        self.wide_corners::<S>(tables)
+            .map_or([S::Wide::ONE, S::Wide::ZERO, S::Wide::ZERO], |corners| shares::<S>(corners, p))
     }
+}
+
+/// The shares of three corners in a point between them.
+pub(super) fn shares<S: Scalar>([a, b, c]: [S::WideVec; 3], p: S::Vec3) -> [S::Wide; 3] {
+    let (zero, one) = (S::Wide::ZERO, S::Wide::ONE);
+    let (b, c, p) = (b - a, c - a, S::widen_vec(p) - a);
+    // Nothing overflows on the way, whatever the size.
+    let size = b.max_abs().max(c.max_abs());
+    let [b, c, p] = [b, c, p].map(|v| v.scaled_down(size));
+    let normal = b.cross(c);
+    let inverse = one / normal.length_squared();
+    let u = p.cross(c).dot(normal) * inverse;
+    let v = b.cross(p).dot(normal) * inverse;
+    let (u, v) = (u.clamp(zero, one), v.clamp(zero, one));
+    let (u, v) = if u + v > one { (u / (u + v), v / (u + v)) } else { (u, v) };
+    [one - u - v, u, v]
+}
+
+/// The normal of the counterclockwise side of three corners: of the length of the sine of their angle.
+pub(super) fn normal<V: Vector<Scalar: Real>>([a, b, c]: [V; 3]) -> V {
+    (b - a).normalize().cross((c - a).normalize())
 }
 
 /// A ray's direction turned to the third of three axes, by a shear.
@@ -83,6 +94,12 @@ impl<T: Real> Shear<T> {
         let inverse = T::ONE / dir.get(along);
         let share = |axis: Axis| dir.get(axis) * inverse;
         Self { axes, x: share(along.next()), y: share(along.next().next()), inverse }
+    }
+
+    /// The ray goes along that axis, not against it.
+    #[inline]
+    pub(super) fn is_forward(&self) -> bool {
+        self.inverse > T::ZERO
     }
 
     /// A vertex across the ray, relative to its origin, and the t of its depth. The same vertex gives the same bits
@@ -123,8 +140,7 @@ impl<S: Scalar> Primitive<S> for Triangle {
                 check_point::<S>(normal, "normals")?;
             }
         }
-        let [a, b, c] = [a, b, c].map(S::widen_vec);
-        let normal = (b - a).normalize().cross((c - a).normalize());
+        let normal = normal([a, b, c].map(S::widen_vec));
         if normal.max_abs() > S::EPSILON.widen() { Ok(()) } else { Err(Flaw::Empty("corners")) }
     }
 
@@ -167,8 +183,7 @@ impl<S: Scalar> Primitive<S> for Triangle {
     }
 
     fn normal(&self, _: S::Vec3, _: u32, tables: &Tables<'_, S>) -> S::WideVec {
-        self.wide_corners::<S>(tables)
-            .map_or(S::WideVec::ZERO, |[a, b, c]| (b - a).normalize().cross((c - a).normalize()))
+        self.wide_corners::<S>(tables).map_or(S::WideVec::ZERO, normal)
     }
 
     /// That of the corners, by their shares, where the triangle has them.

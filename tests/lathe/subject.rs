@@ -169,7 +169,7 @@ impl<S: Exact> Subject<S> {
             assert!(pair[0][1] < pair[1][0], "spans apart: {found:?}");
         }
         assert!(found.iter().all(|[enter, exit]| enter < exit), "{found:?}");
-        assert!(found.len() <= usize::from(leaf.shape.spans_max()));
+        assert!(found.len() <= leaf.shape.spans_max() as usize);
         found
     }
 }

@@ -113,7 +113,7 @@ impl<S: Scalar, F: Field> Subject<S, F> {
         for pair in found.windows(2) {
             assert!(pair[0][1] < pair[1][0], "spans that are not apart: {found:?}");
         }
-        assert!(found.len() <= usize::from(self.leaf.shape.spans_max()), "{found:?}");
+        assert!(found.len() <= self.leaf.shape.spans_max() as usize, "{found:?}");
         if found.last().is_some_and(|[_, exit]| *exit > S::ZERO) {
             let bounds = self.leaf.shape.bounds(place, &parts.tables);
             assert!(bounds.meets(&line, S::FAR), "the bounds lose {ray:?}");

@@ -1,7 +1,9 @@
 //! A shape of a document in the words of the scene builder.
 
+mod mesh;
+
 use nostray::shape::program;
-use nostray::{Form, Profile, Scalar};
+use nostray::{Form, Heights, Profile, Scalar};
 
 use crate::assemble::vector;
 use crate::document::{self, Solid};
@@ -15,11 +17,14 @@ pub(crate) struct Stock<S: Scalar> {
     pairs: Vec<[S; 2]>,
     numbers: Vec<S>,
     code: Vec<u8>,
+    mesh: mesh::Lists<S>,
 }
 
 impl<S: Scalar> Default for Stock<S> {
     fn default() -> Self {
-        Self { points: Vec::new(), pairs: Vec::new(), numbers: Vec::new(), code: Vec::new() }
+        let (points, pairs) = (Vec::new(), Vec::new());
+        let (numbers, code) = (Vec::new(), Vec::new());
+        Self { points, pairs, numbers, code, mesh: mesh::Lists::default() }
     }
 }
 
@@ -76,6 +81,17 @@ impl<S: Scalar> Stock<S> {
                 self.compile(expr, spans, &path.field("Implicit"))?;
                 let (min, max, code, numbers) = (v(min), v(max), &self.code, &self.numbers);
                 ("Implicit", Form::Implicit { min, max, code, numbers, spans })
+            }
+            Solid::Mesh { .. } => {
+                self.mesh = mesh::Lists::of(leaf, &path.field("Mesh"))?;
+                ("Mesh", self.mesh.form())
+            }
+            Solid::HeightField { min, max, columns, ref heights, base, smooth } => {
+                self.numbers.extend(heights.iter().map(|&height| s(height)));
+                let (min, max, base) = (min.0.map(s), max.0.map(s), base.map(s));
+                let heights = &self.numbers;
+                let form = Heights { min, max, columns, heights, base, smooth };
+                ("HeightField", Form::HeightField(form))
             }
             _ => return Err(Flaw::new(path, "is not a shape")),
         })

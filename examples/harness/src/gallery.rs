@@ -1,6 +1,7 @@
 //! Scenes that come with the project.
 
 use crate::document::Document;
+use crate::knot::knot;
 use crate::read::{Syntax, Unreadable, read};
 use crate::sphereflake::sphereflake;
 
@@ -44,6 +45,11 @@ pub static GALLERY: &[Entry] = &[
     file!("glass", "a ball, a hollow ball, a block and a bowl of clear and coloured glass"),
     file!("globe", "a world from a small image under clouds of noise, its moon, and stars"),
     file!("gyroid", "a ball cut from a shell that parts space into two equal mazes"),
+    Entry {
+        name: "knot",
+        description: "a trefoil knot cut open over dunes, and a cut gem: meshes made at run time",
+        origin: Origin::Made(knot),
+    },
     file!("lens", "a reading glass over a printed page"),
     file!("lights", "a spot, a lamp and the moon; coloured glass stains the light"),
     file!("links", "three links that only hold together as three"),

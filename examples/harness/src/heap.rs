@@ -42,4 +42,5 @@ impl Storage for Heap {
     type Points<T: Copy> = Growable<T>;
     type Data<T: Copy> = Growable<T>;
     type Pixels<T: Copy> = Growable<T>;
+    type Branches<T: Copy> = Growable<T>;
 }

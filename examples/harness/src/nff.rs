@@ -33,7 +33,6 @@
 
 mod look;
 mod shapes;
-mod triangulate;
 mod words;
 
 #[cfg(test)]

@@ -118,6 +118,8 @@ fn item(error: &SceneError) -> Option<Item> {
         | SceneError::Empty { at, .. }
         | SceneError::Inverted { at, .. }
         | SceneError::NotPlanar { at, .. }
+        | SceneError::Triangle { at, .. }
+        | SceneError::Hierarchy { at, .. }
         | SceneError::SingularPlacement { at }
         | SceneError::Placed { at }
         | SceneError::OffCentre { at, .. }

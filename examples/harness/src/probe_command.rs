@@ -103,7 +103,8 @@ fn answer<S: Scalar>(line: &[u8]) -> Result<String, String> {
     let scene = assembly.scene().map_err(|flaw| flaw.to_string())?;
     let vacant =
         Boundary { t: S::ZERO, node: 0, face: 0, passage: Passage::Touch, inverted: false };
-    let mut buffer = vec![vacant; scene.limits().boundaries as usize];
+    let room = scene.room(0).map_err(|error| error.to_string())?;
+    let mut buffer = vec![vacant; room as usize];
     let spans = scene.spans(0, ray, &mut buffer).map_err(|error| error.to_string())?;
     listed(&spans, scale)
 }

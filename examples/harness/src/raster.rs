@@ -12,8 +12,10 @@ const RAYS: usize = 65;
 /// The greatest depth that can be asked for.
 pub const DEPTH_MAX: u16 = RAYS as u16 - 1;
 
-/// The boundaries of a solid that most scenes get along with, and those that any scene does.
+/// The boundaries of a solid that most scenes get along with, those that parts of meshes need, and those that
+/// any scene gets along with.
 const BOUNDARIES_FEW: usize = 1024;
+const BOUNDARIES_MANY: usize = 16_384;
 const BOUNDARIES_ALL: usize = 65_536;
 
 /// Enough for a few copies of the largest [`Render`].
@@ -60,12 +62,15 @@ pub fn render<S: Scalar>(
     order: &Order<S>,
     on_row: &(dyn Fn() + Sync),
 ) -> Result<Raster<S>, SceneError> {
-    let few = scene.limits().boundaries as usize <= BOUNDARIES_FEW;
-    match (few, order.counted) {
-        (true, false) => fill::<S, BOUNDARIES_FEW, ()>(scene, order, on_row),
-        (true, true) => fill::<S, BOUNDARIES_FEW, Stats>(scene, order, on_row),
+    let needed = scene.limits().boundaries as usize;
+    if needed > BOUNDARIES_MANY {
         // So rare that counting what nobody asks for does not matter.
-        (false, _) => fill::<S, BOUNDARIES_ALL, Stats>(scene, order, on_row),
+        return fill::<S, BOUNDARIES_ALL, Stats>(scene, order, on_row);
+    }
+    match (needed > BOUNDARIES_FEW, order.counted) {
+        (true, _) => fill::<S, BOUNDARIES_MANY, Stats>(scene, order, on_row),
+        (false, true) => fill::<S, BOUNDARIES_FEW, Stats>(scene, order, on_row),
+        (false, false) => fill::<S, BOUNDARIES_FEW, ()>(scene, order, on_row),
     }
 }
 

@@ -126,7 +126,10 @@ impl Source {
             Self::File(path, Kind::Nff) => return load_nff(name, &text_of(path)?),
             Self::File(path, Kind::Document(syntax)) => {
                 let text = text_of(path)?;
-                (read(&text, *syntax).map_err(unread)?, Some((text, *syntax)))
+                let mut document = read(&text, *syntax).map_err(unread)?;
+                let folder = path.parent().unwrap_or(Path::new(""));
+                document.objects.iter_mut().for_each(|object| object.solid.in_folder(folder));
+                (document, Some((text, *syntax)))
             }
         };
         let told = Told { name, text };

@@ -111,6 +111,10 @@ pub enum Form<'a, S: Scalar> {
         /// would be more, the last one goes on to the last exit.
         spans: Option<u16>,
     },
+    /// Triangles that share vertices, an open surface or a closed solid.
+    Mesh(Triangles<'a, S>),
+    /// Heights over a rectangle, an open surface or a closed solid; it becomes a mesh.
+    HeightField(Heights<'a, S>),
 }
 
 /// The profile of a surface of revolution: points with their distance from the axis and their height. If it
@@ -126,4 +130,44 @@ pub enum Profile<'a, S> {
     ///
     /// Source: E. Catmull and R. Rom, "A class of local interpolating splines" (1974).
     CatmullRom(&'a [[S; 2]]),
+}
+
+/// Values of the corners of triangles: a table of them, and for each triangle which three it has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corners<'a, T> {
+    /// The values.
+    pub values: &'a [T],
+    /// Three indices into the values for each triangle, in the order of the triangles.
+    pub triangles: &'a [[u32; 3]],
+}
+
+/// Triangles that share vertices.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triangles<'a, S: Scalar> {
+    /// The corners, counterclockwise from outside.
+    pub points: Corners<'a, S::Vec3>,
+    /// The normals that light sees at the corners, if the surface is to look curved.
+    pub normals: Option<Corners<'a, S::Vec3>>,
+    /// The texture coordinates of the corners; without them a triangle has its own.
+    pub uvs: Option<Corners<'a, [S; 2]>>,
+    /// It is a solid: every edge is one of two triangles, which go along it in opposite directions.
+    /// Triangles that all run clockwise are turned round.
+    pub closed: bool,
+}
+
+/// Heights along y over a grid of points in the plane of x and z, with two triangles to a cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Heights<'a, S: Scalar> {
+    /// The least x and z.
+    pub min: [S; 2],
+    /// The greatest x and z.
+    pub max: [S; 2],
+    /// How many points there are along x, at least two.
+    pub columns: u32,
+    /// The heights, one row of points along x after another, at least two rows, by growing z.
+    pub heights: &'a [S],
+    /// How far down a solid goes; without it there is only the surface.
+    pub base: Option<S>,
+    /// The surface is to look curved.
+    pub smooth: bool,
 }

@@ -1,7 +1,9 @@
 //! From a shape as people describe it to the shape that is stored, and its placement.
 
 mod flat;
+mod heights;
 mod implicit;
+mod mesh;
 mod outline;
 mod quadric;
 mod torus;
@@ -13,6 +15,7 @@ use crate::error::{Item, SceneError};
 use crate::place::{Affine, Placement, Rows, apply_transposed};
 use crate::scalar::{Axis, Number, Scalar, Vector};
 use crate::shape::{Cone, Cuboid, Cylinder, Plane, Shape, Sphere};
+use mesh::Site;
 
 impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
     /// The shape and the placement that a form becomes, with its vertices in the table.
@@ -27,6 +30,7 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
             return Err(SceneError::NotFinite { at, field: "placement" });
         }
         let inverse = to_world.inverse_rows().ok_or(singular)?;
+        let site = Site { to_world, inverse: &inverse, at };
         match form {
             Form::Sphere { center, radius } => {
                 let stand =
@@ -77,6 +81,8 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
                 let formula = Formula { corners: [min, max], code, numbers, spans };
                 self.realise_implicit(&formula, to_world)
             }
+            Form::Mesh(form) => Ok((self.realise_mesh(&form, site)?, None)),
+            Form::HeightField(form) => Ok((self.realise_heights(&form, site)?, None)),
         }
     }
 

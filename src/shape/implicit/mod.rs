@@ -184,6 +184,8 @@ impl<S: Scalar> Primitive<S> for Implicit<S> {
         self.spans_until(sight, S::FAR, emit);
     }
 
+    // Out of line: what it keeps on the stack is there for such solids only.
+    #[inline(never)]
     fn spans_until(&self, sight: &Sight<'_, S>, until: S, emit: impl FnMut(Span<S>)) {
         let Some(Reach { ray, span, inward }) = self.reach(sight) else {
             return;

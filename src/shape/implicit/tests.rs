@@ -95,7 +95,7 @@ fn spans_are_bounded_by_the_degrees_of_polynomials() {
 fn crossings<S: Scalar>(code: &[u8], numbers: &[f64], ray: [[f64; 3]; 2]) -> (u32, u32) {
     let numbers: Vec<S> = numbers.iter().copied().map(S::from_f64).collect();
     let corners = [S::Vec3::splat(S::from_i32(-4)), S::Vec3::splat(S::from_i32(4))];
-    let tables = Tables { points: &corners, numbers: &numbers, indices: &[], code };
+    let tables = Tables { points: &corners, numbers: &numbers, code, ..Tables::EMPTY };
     let shape = Implicit::<S> {
         center: S::Vec3::ZERO,
         corners: 0,

@@ -1,5 +1,7 @@
 //! The solids of a scene file.
 
+use std::path::Path;
+
 use serde::Deserialize;
 
 use super::upward;
@@ -140,6 +142,47 @@ pub enum Solid {
         #[serde(default, deserialize_with = "present")]
         spans: Option<u16>,
     },
+    /// Triangles that share points, from a file or as they are written here; an open surface or a solid.
+    Mesh {
+        /// A file in OBJ format, beside the scene file.
+        #[serde(default, deserialize_with = "present")]
+        file: Option<String>,
+        /// The points.
+        #[serde(default)]
+        points: Vec<Triple>,
+        /// Three points for each triangle, from 0 on, counterclockwise from outside.
+        #[serde(default)]
+        triangles: Vec<Several<u32, 3>>,
+        /// The normals that light sees, one for each point.
+        #[serde(default)]
+        normals: Vec<Triple>,
+        /// The texture coordinates, one pair for each point.
+        #[serde(default)]
+        uvs: Vec<Several<f64, 2>>,
+        /// It is a solid; not if left out.
+        #[serde(default)]
+        closed: bool,
+        /// It is to look curved where it has no normals; not if left out.
+        #[serde(default)]
+        smooth: bool,
+    },
+    /// Heights over a rectangle; an open surface, or a solid if it has a base.
+    HeightField {
+        /// The least x and z.
+        min: Several<f64, 2>,
+        /// The greatest x and z.
+        max: Several<f64, 2>,
+        /// How many heights there are along x.
+        columns: u32,
+        /// The heights, row by row of growing z.
+        heights: Vec<f64>,
+        /// How far down it goes.
+        #[serde(default, deserialize_with = "present")]
+        base: Option<f64>,
+        /// It is to look curved; not if left out.
+        #[serde(default)]
+        smooth: bool,
+    },
     /// In any of them.
     Union(Vec<Self>),
     /// In all of them.
@@ -196,4 +239,25 @@ pub enum Move {
         /// The angle in degrees.
         degrees: f64,
     },
+}
+
+impl Solid {
+    /// Takes the names of files to be those of files in a folder.
+    pub(crate) fn in_folder(&mut self, folder: &Path) {
+        let mut waiting = vec![self];
+        while let Some(solid) = waiting.pop() {
+            match solid {
+                Self::Mesh { file: Some(file), .. } => {
+                    *file = folder.join(&*file).display().to_string();
+                }
+                Self::Union(operands)
+                | Self::Intersection(operands)
+                | Self::Difference(operands)
+                | Self::Xor(operands) => waiting.extend(operands),
+                Self::Complement(operand) => waiting.push(operand),
+                Self::With { solid, .. } => waiting.push(solid),
+                _ => {}
+            }
+        }
+    }
 }

@@ -4,8 +4,8 @@ use nostray::glam::DVec3;
 use nostray::{Affine, Form, Scalar, SceneError, Vector};
 
 use super::look::within_one;
-use super::triangulate::triangulate;
 use super::{NffError, Reader};
+use crate::triangulate::triangulate;
 
 /// What became of a form.
 enum Added {

@@ -2,14 +2,14 @@
 //! on both sides and its shadow is seen.
 
 use nostray::{
-    Affine, Axis, Blend, Fixed, Form, Fresnel, Material, Operator, Paint, Pattern, Profile, Rgb,
-    Scalar, SceneBuilder, SceneError, Stop, Texture,
+    Affine, Axis, Blend, Corners, Fixed, Form, Fresnel, Heights, Material, Operator, Paint,
+    Pattern, Profile, Rgb, Scalar, SceneBuilder, SceneError, Stop, Texture, Triangles,
 };
 
 use super::{rgb, shoot, sun, tenths};
 
 /// Room for the floor and one solid.
-type Builder<S> = SceneBuilder<S, Fixed<4, 8, 4, 32, 64>>;
+type Builder<S> = SceneBuilder<S, Fixed<4, 8, 4, 32, 256, 0, 16>>;
 
 const SIZE: [u32; 2] = [12, 9];
 
@@ -27,7 +27,9 @@ pub(super) fn trace<S: Scalar>(
     picture(shrink, sink, prism)?;
     // Costs as much as all others together.
     picture(2 * shrink, sink, implicit)?;
-    picture(shrink, sink, hyperboloid)
+    picture(shrink, sink, hyperboloid)?;
+    picture(shrink, sink, crystal)?;
+    picture(shrink, sink, hill)
 }
 
 /// One picture. What a solid adds lies about the ball of radius 1 around the origin and has the
@@ -147,6 +149,29 @@ fn hyperboloid<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), S
     scene.leaf(ball, &Affine::identity(), material)?;
     scene.leaf(quadric, &turned(Axis::Z, 20), material)?;
     scene.close(material)
+}
+
+/// An octahedron as a closed mesh, smooth and with a corner cut off.
+fn crystal<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneError> {
+    let points = [(10, 0, 0), (-9, 0, 0), (0, 10, 0), (0, -9, 0), (0, 0, 10), (0, 0, -9)];
+    let points = points.map(|(x, y, z)| tenths::<S>(x, y, z));
+    let triangles =
+        [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];
+    let corners = Corners { values: &points[..], triangles: &triangles[..] };
+    let mesh = Triangles { points: corners, normals: Some(corners), uvs: None, closed: true };
+    scene.open(Operator::Difference)?;
+    scene.leaf(Form::Mesh(mesh), &turned(Axis::Y, 20), material)?;
+    let center = tenths::<S>(4, 9, 6);
+    scene.leaf(Form::Sphere { center, radius: S::HALF }, &Affine::identity(), material)?;
+    scene.close(material)
+}
+
+/// A height field as an open mesh.
+fn hill<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneError> {
+    let heights = [0, 2, 1, 3, 9, 4, 0, 4, 2].map(|height| S::from_ratio(height, 10));
+    let (min, max) = ([-S::ONE; 2], [S::ONE; 2]);
+    let field = Heights { min, max, columns: 3, heights: &heights, base: None, smooth: true };
+    scene.leaf(Form::HeightField(field), &turned(Axis::X, 15), material)
 }
 
 fn turned<S: Scalar>(axis: Axis, degrees: i32) -> Affine<S> {

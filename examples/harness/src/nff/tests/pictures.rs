@@ -7,7 +7,7 @@ use nostray::{Pixel, Projection};
 
 use super::{draw, read};
 use crate::nff::NffScene;
-use crate::nff::triangulate::triangulate;
+use crate::triangulate::triangulate;
 
 const SIDE: u32 = 64;
 const SKY: [f64; 3] = [0.5, 0.25, 0.125];

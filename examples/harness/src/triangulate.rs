@@ -14,7 +14,7 @@ type Flat = [f64; 2];
 /// number of vertices where ears are easy to find, and never faster than the cube.
 ///
 /// Source: G. H. Meisters, "Polygons Have Ears" (1975).
-pub(super) fn triangulate(vertices: &[DVec3]) -> Vec<[usize; 3]> {
+pub(crate) fn triangulate(vertices: &[DVec3]) -> Vec<[usize; 3]> {
     let normal = Polygon::<f64>::newell(vertices);
     if normal == DVec3::ZERO {
         return Vec::new();
