@@ -265,7 +265,6 @@ impl<S: Scalar> Primitive<S> for Lathe<S> {
     /// Seen from the axis the ray is a branch of a hyperbola. Vertices of the profile lie on one side of it or
     /// on the other, which is decided once for each, so each piece is known to be crossed an odd number of times or an
     /// even one before any crossing is computed, and a closed profile always an even number.
-    #[inline]
     // Out of line: what it keeps on the stack is there for such solids only.
     #[inline(never)]
     fn spans(&self, sight: &Sight<'_, S>, emit: impl FnMut(Span<S>)) {

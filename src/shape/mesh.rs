@@ -158,12 +158,16 @@ impl<S: Scalar> Primitive<S> for Mesh {
 
     /// A walk through the hierarchy finds the next few boundaries, and then again the next, so a ray may meet
     /// any number of triangles.
+    // Out of line: what it keeps on the stack is there for such solids only.
+    #[inline(never)]
     fn spans_within(&self, sight: &Sight<'_, S>, window: [S; 2], emit: impl FnMut(Span<S>)) {
         if let Some(course) = Course::listing(self, sight) {
             course.spans(window, emit);
         }
     }
 
+    // Out of line: what it keeps on the stack is there for such solids only.
+    #[inline(never)]
     fn first(
         &self,
         sight: &Sight<'_, S>,

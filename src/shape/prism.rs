@@ -254,7 +254,6 @@ impl<S: Scalar> Primitive<S> for Prism<S> {
     /// Seen along the axis, a ray is a line that leaves each vertex on one of its sides, which is decided once for each:
     /// so it crosses the polygon an even number of times. What it crosses is clipped by the caps. A ray in a side or along
     /// an edge is inside if what lies beside it on either side is.
-    #[inline]
     // Out of line: what it keeps on the stack is there for such solids only.
     #[inline(never)]
     fn spans(&self, sight: &Sight<'_, S>, mut emit: impl FnMut(Span<S>)) {

@@ -211,7 +211,6 @@ impl<S: Scalar> Primitive<S> for Quadric<S> {
 
     /// The polynomial along the ray, recentred; its two roots without cancellation, its
     /// discriminant with the exact sign of the terms. A ray from the surface has its other root at −2b/a.
-    #[inline]
     // Out of line: what it keeps on the stack is there for such solids only.
     #[inline(never)]
     fn spans(&self, sight: &Sight<'_, S>, emit: impl FnMut(Span<S>)) {

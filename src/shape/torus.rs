@@ -242,7 +242,6 @@ impl<S: Scalar> Ends<S> {
     }
 
     /// The spans between them; a gap without a number in it is none.
-    #[inline]
     // Out of line: what it keeps on the stack is there for such solids only.
     #[inline(never)]
     fn spans(&self, mut emit: impl FnMut(Span<S>)) {
