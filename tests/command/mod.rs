@@ -1,6 +1,6 @@
 //! Calls of the command `render`, and the scene files that tests give it.
 
-#![allow(dead_code, reason = "each test binary uses some of it")]
+#![allow(clippy::expect_used, clippy::unwrap_used, reason = "tests may panic")]
 
 use std::ffi::OsString;
 use std::fs;
@@ -41,9 +41,11 @@ pub(crate) fn refusal(args: &[&str], code: u8) -> String {
     message.to_owned()
 }
 
-/// A file in a folder of this test binary.
+/// A file in a folder of this test.
 pub(crate) fn path(name: &str) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(env!("CARGO_CRATE_NAME"));
+    let thread = std::thread::current();
+    let test = thread.name().unwrap_or("test").replace("::", "-");
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(test);
     fs::create_dir_all(&folder).unwrap();
     folder.join(name)
 }

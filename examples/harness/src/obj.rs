@@ -104,7 +104,8 @@ impl Reader {
         let place = |corner: &Corner| corner[0].and_then(|index| self.points.get(index));
         let places: Vec<DVec3> =
             corners.iter().filter_map(place).map(|&p| DVec3::from_array(p)).collect();
-        for triangle in triangulate(&places) {
+        let divided = if corners.len() == 3 { vec![[0, 1, 2]] } else { triangulate(&places) };
+        for triangle in divided {
             let [a, b, c] = triangle.map(|index| places[index]);
             let area = Vector::cross(Vector::normalize(b - a), Vector::normalize(c - a));
             if area != DVec3::ZERO {
@@ -216,7 +217,7 @@ mod tests {
     fn faces_become_triangles_of_their_corners() {
         let figure = read_obj(&format!("{SQUARE}g one\nf 1 2 3 4\nf -4 -3 -1 # again\n")).unwrap();
         assert_eq!(figure.points.len(), 4);
-        assert_eq!(figure.corners, [[3, 0, 1], [3, 1, 2], [3, 0, 1]]);
+        assert_eq!(figure.corners, [[3, 0, 1], [3, 1, 2], [0, 1, 3]]);
         assert!(figure.normals.is_empty() && figure.uvs.is_empty());
     }
 
