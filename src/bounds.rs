@@ -76,7 +76,12 @@ impl<S: Scalar> Bounds<S> {
     /// rounding of the slab test.
     #[inline]
     pub fn meets(&self, line: &Line<S>, t_max: S) -> bool {
-        let (mut enter, mut exit) = (S::ZERO, t_max);
+        self.meets_between(line, [S::ZERO, t_max])
+    }
+
+    /// The same for the part of a ray's line between two t.
+    #[inline]
+    pub(crate) fn meets_between(&self, line: &Line<S>, [mut enter, mut exit]: [S; 2]) -> bool {
         let [x, y, z] = line.inv_dir;
         let mut slab = |min: S, max: S, origin: S, inv: S::Inverse| {
             if S::is_parallel(inv) {
@@ -91,7 +96,7 @@ impl<S: Scalar> Bounds<S> {
         slab(self.min.x(), self.max.x(), line.origin.x(), x)
             && slab(self.min.y(), self.max.y(), line.origin.y(), y)
             && slab(self.min.z(), self.max.z(), line.origin.z(), z)
-            && enter <= exit + slack(exit)
+            && enter <= exit + slack(exit.abs())
     }
 }
 

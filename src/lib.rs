@@ -92,8 +92,8 @@ pub use scene::{
     Storage, Store, Triangles,
 };
 pub use shape::{
-    Cone, Cuboid, Curve, Cylinder, Filled, Implicit, Lathe, Mesh, Plane, Polygon, Prism, Quadric,
-    Shape, Sphere, Tables, Torus, Triangle, Winding,
+    Cone, Cuboid, Curve, Cylinder, Filled, Implicit, Lathe, Mesh, Patches, Plane, Polygon, Prism,
+    Quadric, Shape, Sphere, Tables, Torus, Triangle, Winding,
 };
 pub use solid::{Leaf, Node};
 pub use span::{Boundary, Operator, Passage, Spans};

@@ -174,7 +174,7 @@ impl<'a, S: Scalar> Scene<'a, S> {
     }
 
     /// The room that [`spans`](Self::spans) needs for an object: no more than [`limits`](Self::limits) tells,
-    /// unless the object is a mesh, which may meet a ray as often as it has triangles.
+    /// unless the object is a mesh, which may meet a ray as often as it has triangles, or patches.
     ///
     /// # Errors
     /// If there is no such object.

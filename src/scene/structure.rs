@@ -12,7 +12,8 @@ use crate::span::Operator;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Structure {
     /// The boundaries that the evaluation of one solid may hold at a time: the room that
-    /// [`Render`](crate::render::Render) needs. A mesh that is an object of its own needs no list.
+    /// [`Render`](crate::render::Render) needs. A mesh that is an object of its own needs no
+    /// list, and neither do patches.
     pub boundaries: u32,
     /// The surfaces that a ray can go through at most, all objects together.
     pub crossings: u32,
@@ -211,7 +212,7 @@ pub(super) const fn object_structure<S: Scalar>(
                     return Err(error);
                 }
                 crossings = crossings.saturating_add(leaf.shape.boundaries_max());
-                listed = !matches!(leaf.shape, Shape::Mesh(_));
+                listed = !matches!(leaf.shape, Shape::Mesh(_) | Shape::Patches(_));
                 finished = match nest.finish(node + 1) {
                     Ok(finished) => finished,
                     Err(error) => return Err(error),
@@ -234,7 +235,7 @@ pub(super) const fn object_structure<S: Scalar>(
 
 /// The boundaries that the lists of an object may hold, of so many that there may be. A merge reads two lists
 /// and writes a third that is no longer than both; the others wait. A mesh that stands alone is not
-/// listed, but searched for one boundary at a time.
+/// listed, but searched for one boundary at a time, and so are patches.
 const fn room(crossings: u32, operators: bool, listed: bool) -> u32 {
     match (operators, listed) {
         (true, _) => crossings.saturating_mul(2),

@@ -15,6 +15,7 @@
 //! | [`Polygon`] | the same edge functions, counted along a half-line; concave allowed |
 //! | [`Implicit`] | intervals of the formula and of its slope, halved until each proves its roots |
 //! | [`Mesh`] | the same again, under a hierarchy of boxes; open or closed |
+//! | [`Patches`] | subdivided across the ray until at most one root is left, then Newton |
 
 mod cone;
 mod crossings;
@@ -24,6 +25,7 @@ mod implicit;
 mod lathe;
 mod mesh;
 mod outline;
+mod patch;
 mod plane;
 mod polygon;
 mod prism;
@@ -38,6 +40,7 @@ pub use cylinder::Cylinder;
 pub use implicit::{Implicit, ProgramFlaw, program};
 pub use lathe::{Curve, Filled, Lathe};
 pub use mesh::Mesh;
+pub use patch::Patches;
 pub use plane::Plane;
 pub use polygon::Polygon;
 pub use prism::{Prism, Winding};
@@ -226,6 +229,8 @@ pub enum Shape<S: Scalar> {
     Implicit(Implicit<S>),
     /// Many triangles, open or closed.
     Mesh(Mesh),
+    /// Bicubic Bézier patches, an open surface.
+    Patches(Patches<S>),
 }
 
 macro_rules! each {
@@ -244,6 +249,7 @@ macro_rules! each {
             Shape::Polygon($inner) => $body,
             Shape::Implicit($inner) => $body,
             Shape::Mesh($inner) => $body,
+            Shape::Patches($inner) => $body,
         }
     };
 }
@@ -252,7 +258,7 @@ impl<S: Scalar> Shape<S> {
     /// A surface without an inside.
     pub const fn is_open(&self) -> bool {
         match self {
-            Self::Triangle(_) | Self::Polygon(_) => true,
+            Self::Triangle(_) | Self::Polygon(_) | Self::Patches(_) => true,
             Self::Lathe(lathe) => lathe.is_open(),
             Self::Mesh(mesh) => !mesh.closed,
             _ => false,
@@ -274,6 +280,7 @@ impl<S: Scalar> Shape<S> {
             Self::Implicit(implicit) => implicit.spans as u32,
             Self::Mesh(mesh) if mesh.closed => mesh.triangles / 2,
             Self::Mesh(mesh) => mesh.triangles,
+            Self::Patches(patches) => patches.hits_max() as u32,
         }
     }
 
@@ -281,6 +288,8 @@ impl<S: Scalar> Shape<S> {
     pub const fn boundaries_max(&self) -> u32 {
         match self {
             Self::Mesh(mesh) => mesh.triangles,
+            // An open surface: each is a touch.
+            Self::Patches(patches) => patches.hits_max() as u32,
             _ => 2 * self.spans_max(),
         }
     }

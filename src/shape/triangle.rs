@@ -102,6 +102,11 @@ impl<T: Real> Shear<T> {
         self.inverse > T::ZERO
     }
 
+    /// How fast the ray goes along the axis.
+    pub(super) fn speed(&self) -> T {
+        (T::ONE / self.inverse).abs()
+    }
+
     /// A vertex across the ray, relative to its origin, and the t of its depth. The same vertex gives the same bits
     /// whatever it is a vertex of; that is what makes shared edges watertight.
     #[inline]

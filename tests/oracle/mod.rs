@@ -11,6 +11,7 @@
 
 pub mod exact;
 pub mod field;
+pub mod patches;
 pub mod revolve;
 pub mod ring;
 pub mod scan;

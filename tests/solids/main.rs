@@ -12,6 +12,7 @@ mod mesh;
 mod metamorphic;
 #[path = "../oracle/mod.rs"]
 mod oracle;
+mod patch;
 mod prism;
 mod quadric;
 mod secondary;

@@ -44,6 +44,28 @@ const SOLIDS: &[(&str, &str)] = &[
     ("spindle", "Torus(center: (0, 0.25, 0), axis: (1, 0, 0.5), major: 0.5, minor: 0.875)"),
 ];
 
+/// Open surfaces of the same extent: no law of sets is about them.
+const SURFACES: &[(&str, &str)] = &[
+    (
+        "patch",
+        "Patch([[(-1.5, 0.5, -1.25), (-0.5, -1, -1.25), (0.5, 1.5, -1.5), (1.5, 0, -1)], \
+         [(-1.25, 1, -0.5), (-0.5, -0.5, -0.75), (0.75, -1.5, -0.5), (1.25, 1, -0.25)], \
+         [(-1.5, -1, 0.5), (-0.25, 1.5, 0.25), (0.5, 0.5, 0.75), (1.5, -0.5, 0.5)], \
+         [(-1.25, 0.25, 1.5), (-0.5, -0.75, 1), (0.25, 1, 1.25), (1.25, 0.5, 1.5)]])",
+    ),
+    (
+        "spline",
+        "Spline(points: [[(1.25, -1.5, 0), (0, -1.5, 1.25), (-1.25, -1.5, 0), (0, -1.5, -1.25)], \
+         [(1.75, -0.5, 0), (0.25, -0.5, 1.5), (-1.5, -0.25, 0), (0, -0.5, -1.75)], \
+         [(1, 0.5, 0), (0, 0.25, 1), (-0.75, 0.5, 0.25), (0, 0.5, -1)], \
+         [(1.5, 1.75, 0), (0, 1.5, 1.5), (-1.5, 1.75, 0), (0.25, 1.5, -1.5)]], closed: (true, false))",
+    ),
+];
+
+fn all() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
+    SOLIDS.iter().chain(SURFACES)
+}
+
 /// The moves of a document that change nothing.
 const HERE: &str = "";
 
@@ -72,7 +94,7 @@ impl<S: Scalar> Subject<S> {
         let scene = self.0.scene().expect("a legal scene");
         let vacant =
             Boundary { t: S::ZERO, node: 0, face: 0, passage: Passage::Touch, inverted: false };
-        let mut buffer = vec![vacant; scene.limits().boundaries as usize];
+        let mut buffer = vec![vacant; scene.room(0).expect("one object") as usize];
         let spans = scene.spans(0, ray, &mut buffer).expect("room for the one object");
         let boundaries = spans.boundaries.iter().map(|b| (b.t, b.passage)).collect();
         List { inside: spans.inside, boundaries }
@@ -109,7 +131,7 @@ fn tolerance<S: Scalar>() -> f64 {
 
 fn powers_of_two<S: Scalar>(rays: u32) -> u32 {
     let mut met = 0;
-    for (name, solid) in SOLIDS {
+    for (name, solid) in all() {
         let plain = Subject::<S>::new(solid, HERE);
         let mut random = Random::new(2);
         for factor in [0.125, 16.0, 64.0] {
@@ -182,7 +204,7 @@ impl Tally {
 }
 
 fn reversals<S: Scalar>(rays: u32) {
-    for (name, solid) in SOLIDS {
+    for (name, solid) in all() {
         let (subject, mut random) = (Subject::<S>::new(solid, HERE), Random::new(3));
         let mut tally = Tally::default();
         for _ in 0..rays {
@@ -217,7 +239,7 @@ fn motions<S: Scalar>(rays: u32) {
     // A third of a turn about the diagonal changes the axes round.
     let turned = |[x, y, z]: [f64; 3]| [z, x, y];
     let moves = "Rotate(axis: (1, 1, 1), degrees: 120), Translate((3, -2, 1))";
-    for (name, solid) in SOLIDS {
+    for (name, solid) in all() {
         let (plain, moved) = (Subject::<S>::new(solid, HERE), Subject::<S>::new(solid, moves));
         let (mut tally, mut random) = (Tally::default(), Random::new(4));
         for _ in 0..rays {

@@ -18,13 +18,19 @@ pub(crate) struct Stock<S: Scalar> {
     numbers: Vec<S>,
     code: Vec<u8>,
     mesh: mesh::Lists<S>,
+    patches: Vec<[u32; 16]>,
 }
 
 impl<S: Scalar> Default for Stock<S> {
     fn default() -> Self {
-        let (points, pairs) = (Vec::new(), Vec::new());
-        let (numbers, code) = (Vec::new(), Vec::new());
-        Self { points, pairs, numbers, code, mesh: mesh::Lists::default() }
+        Self {
+            points: Vec::new(),
+            pairs: Vec::new(),
+            numbers: Vec::new(),
+            code: Vec::new(),
+            mesh: mesh::Lists::default(),
+            patches: Vec::new(),
+        }
     }
 }
 
@@ -92,6 +98,38 @@ impl<S: Scalar> Stock<S> {
                 let heights = &self.numbers;
                 let form = Heights { min, max, columns, heights, base, smooth };
                 ("HeightField", Form::HeightField(form))
+            }
+            _ => return self.surface(leaf, path),
+        })
+    }
+
+    /// The same for surfaces of patches.
+    fn surface(
+        &mut self,
+        leaf: &Solid,
+        path: &Path<'_>,
+    ) -> Result<(&'static str, Form<'_, S>), Flaw> {
+        let v = vector::<S>;
+        Ok(match *leaf {
+            Solid::Patch(ref rows) => {
+                self.points.extend(rows.0.iter().flat_map(|row| row.0).map(v));
+                self.patches.push(std::array::from_fn(|index| index as u32));
+                ("Patch", Form::Patches { points: &self.points, patches: &self.patches })
+            }
+            Solid::Patches { ref points, ref patches } => {
+                self.points.extend(points.iter().map(|&point| v(point)));
+                self.patches.extend(patches.iter().map(|patch| patch.0));
+                ("Patches", Form::Patches { points: &self.points, patches: &self.patches })
+            }
+            Solid::Spline { points: ref rows, closed } => {
+                let columns = rows.first().map_or(0, Vec::len);
+                if rows.iter().any(|row| row.len() != columns) {
+                    let path = path.field("Spline");
+                    return Err(Flaw::new(path.field("points"), "has rows of different lengths"));
+                }
+                self.points.extend(rows.iter().flatten().map(|&point| v(point)));
+                let (points, columns) = (&self.points[..], columns as u32);
+                ("Spline", Form::Spline { points, columns, closed: closed.0 })
             }
             _ => return Err(Flaw::new(path, "is not a shape")),
         })

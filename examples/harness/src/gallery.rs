@@ -67,6 +67,10 @@ pub static GALLERY: &[Entry] = &[
     file!("steel", "steel brushed along a plate, turned on a knob, blued on a bolt"),
     file!("stone", "a hall of three marbles, with a granite plinth and a ball of agate"),
     file!("stress", "thin wires before a far planet, through a telescope of one degree"),
+    file!(
+        "teapot",
+        "Newell's teapot in celadon, of 32 Bézier patches, and a bowl that is a B-spline"
+    ),
     file!("water", "a lake that mirrors a sky of noise, with waves and the rings around a post"),
 ];
 

@@ -115,6 +115,26 @@ pub enum Form<'a, S: Scalar> {
     Mesh(Triangles<'a, S>),
     /// Heights over a rectangle, an open surface or a closed solid; it becomes a mesh.
     HeightField(Heights<'a, S>),
+    /// Bicubic Bézier patches that may share control points, an open surface. The scene needs room for the control
+    /// points, two more for each patch, and 16 indices for each patch.
+    Patches {
+        /// The control points.
+        points: &'a [S::Vec3],
+        /// The control points of each patch: four rows of four along u, one after another along v. Its outer
+        /// side is that of ∂/∂u × ∂/∂v.
+        patches: &'a [[u32; 16]],
+    },
+    /// A uniform bicubic B-spline, an open surface. It becomes patches, one for each four rows of four points that follow
+    /// one another, with three times as many control points either way.
+    Spline {
+        /// The control points, row by row.
+        points: &'a [S::Vec3],
+        /// How many make a row: at least 4, or 3 where rows are closed. There are at least 4 rows, or 3 where columns
+        /// are closed.
+        columns: u32,
+        /// Rows are closed curves; columns are.
+        closed: [bool; 2],
+    },
 }
 
 /// The profile of a surface of revolution: points with their distance from the axis and their height. If it

@@ -5,6 +5,7 @@ mod heights;
 mod implicit;
 mod mesh;
 mod outline;
+mod patches;
 mod quadric;
 mod torus;
 
@@ -83,6 +84,10 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
             }
             Form::Mesh(form) => Ok((self.realise_mesh(&form, site)?, None)),
             Form::HeightField(form) => Ok((self.realise_heights(&form, site)?, None)),
+            Form::Patches { points, patches } => self.realise_patches(points, patches, to_world),
+            Form::Spline { points, columns, closed } => {
+                self.realise_spline(points, columns, closed, to_world)
+            }
         }
     }
 

@@ -183,6 +183,23 @@ pub enum Solid {
         #[serde(default)]
         smooth: bool,
     },
+    /// A bicubic Bézier patch, an open surface: four rows of four control points.
+    Patch(Box<Several<Several<Triple, 4>, 4>>),
+    /// Bicubic Bézier patches that share control points, an open surface.
+    Patches {
+        /// The control points.
+        points: Vec<Triple>,
+        /// The sixteen control points of each patch, row by row, counted from 0.
+        patches: Vec<Several<u32, 16>>,
+    },
+    /// A uniform bicubic B-spline, an open surface.
+    Spline {
+        /// The control points, row by row: at least 4 rows of at least 4, or 3 in a direction that is closed.
+        points: Vec<Vec<Triple>>,
+        /// Rows are closed curves; columns are. Neither if left out.
+        #[serde(default = "open")]
+        closed: Several<bool, 2>,
+    },
     /// In any of them.
     Union(Vec<Self>),
     /// In all of them.
@@ -216,6 +233,10 @@ pub enum Profile {
     Bezier(Vec<Several<f64, 2>>),
     /// Points joined by a smooth curve.
     CatmullRom(Vec<Several<f64, 2>>),
+}
+
+fn open() -> Several<bool, 2> {
+    Several([false; 2])
 }
 
 /// One step of a placement.

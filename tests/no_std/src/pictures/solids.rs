@@ -29,7 +29,9 @@ pub(super) fn trace<S: Scalar>(
     picture(2 * shrink, sink, implicit)?;
     picture(shrink, sink, hyperboloid)?;
     picture(shrink, sink, crystal)?;
-    picture(shrink, sink, hill)
+    picture(shrink, sink, hill)?;
+    picture(shrink, sink, patch)?;
+    picture(shrink, sink, spline)
 }
 
 /// One picture. What a solid adds lies about the ball of radius 1 around the origin and has the
@@ -133,6 +135,42 @@ fn prism<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneEr
     let vertices = pairs([(0, 10), (6, -8), (-9, 3), (9, 3), (-6, -8)]);
     let form = Form::Prism { vertices: &vertices, height: S::HALF };
     scene.leaf(form, &turned(Axis::X, 60), material)
+}
+
+/// A fan of one patch, folded over itself.
+fn patch<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneError> {
+    let spots = [
+        [(0, -9, 0), (0, -9, 0), (0, -9, 0), (0, -9, 0)],
+        [(-7, -4, 6), (2, -7, -9), (-3, -2, 9), (6, -5, -6)],
+        [(-12, 2, 0), (8, 1, 9), (-9, 3, -8), (12, 2, 3)],
+        [(-8, 9, 2), (-1, 12, -5), (3, 7, 6), (9, 10, 0)],
+    ];
+    let mut points = [S::Vec3::default(); 16];
+    let mut indices = [0; 16];
+    for (index, (x, y, z)) in spots.into_iter().flatten().enumerate() {
+        if let Some(point) = points.get_mut(index) {
+            *point = tenths::<S>(x, y, z);
+        }
+        if let Some(slot) = indices.get_mut(index) {
+            *slot = index as u32;
+        }
+    }
+    let form = Form::Patches { points: &points, patches: &[indices] };
+    scene.leaf(form, &turned(Axis::Y, 30), material)
+}
+
+/// A leaf of paper that curls: a spline of two patches.
+fn spline<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneError> {
+    let heights = [[5, -9, -9, 9], [2, -6, 6, 8], [0, 2, 9, 4], [3, 5, 2, -8], [9, 9, -4, -9]];
+    let mut points = [S::Vec3::default(); 20];
+    let places = (-2..).zip(heights).flat_map(|(row, heights)| {
+        (-2..).zip(heights).map(move |(column, height)| (column * 14 + 7, height, row * 11))
+    });
+    for (point, (x, y, z)) in points.iter_mut().zip(places) {
+        *point = tenths::<S>(x, y, z);
+    }
+    let form = Form::Spline { points: &points, columns: 4, closed: [false; 2] };
+    scene.leaf(form, &turned(Axis::X, 25), material)
 }
 
 /// What lies between two sheets, cut off by a ball.
