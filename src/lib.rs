@@ -88,12 +88,12 @@ pub use ray::Ray;
 pub use render::{Depth, Pixel, Render, Step};
 pub use scalar::{Axis, Number, Real, Scalar, Vector};
 pub use scene::{
-    Corners, Fixed, Form, Heights, Hit, Limits, Object, Parts, Profile, Scene, SceneBuilder,
-    Storage, Store, Triangles,
+    Corners, Fixed, Form, Heights, Hit, Limits, Metaball, Object, Parts, Profile, Scene,
+    SceneBuilder, Storage, Store, Triangles,
 };
 pub use shape::{
-    Cone, Cuboid, Curve, Cylinder, Filled, Implicit, Lathe, Mesh, Patches, Plane, Polygon, Prism,
-    Quadric, Shape, Sphere, Tables, Torus, Triangle, Winding,
+    Blob, Cone, Cuboid, Curve, Cylinder, Filled, Implicit, Lathe, Mesh, Patches, Plane, Polygon,
+    Prism, Quadric, Shape, Sphere, Tables, Torus, Triangle, Winding,
 };
 pub use solid::{Leaf, Node};
 pub use span::{Boundary, Operator, Passage, Spans};

@@ -4,7 +4,7 @@ mod form;
 mod paint;
 mod realise;
 
-pub use form::{Corners, Form, Heights, Profile, Triangles};
+pub use form::{Corners, Form, Heights, Metaball, Profile, Triangles};
 
 use super::check::check_object;
 use super::{Object, Parts, Scene};

@@ -5,7 +5,9 @@ mod check;
 mod structure;
 mod trace;
 
-pub use build::{Corners, Fixed, Form, Heights, Profile, SceneBuilder, Storage, Store, Triangles};
+pub use build::{
+    Corners, Fixed, Form, Heights, Metaball, Profile, SceneBuilder, Storage, Store, Triangles,
+};
 pub use structure::{Structure, structure};
 pub use trace::Hit;
 

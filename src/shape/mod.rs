@@ -14,9 +14,11 @@
 //! | [`Triangle`] | watertight edge functions in the space of the ray |
 //! | [`Polygon`] | the same edge functions, counted along a half-line; concave allowed |
 //! | [`Implicit`] | intervals of the formula and of its slope, halved until each proves its roots |
+//! | [`Blob`] | quartics between the breakpoints of its components, all their roots isolated |
 //! | [`Mesh`] | the same again, under a hierarchy of boxes; open or closed |
 //! | [`Patches`] | subdivided across the ray until at most one root is left, then Newton |
 
+mod blob;
 mod cone;
 mod crossings;
 mod cuboid;
@@ -34,6 +36,7 @@ mod sphere;
 mod torus;
 mod triangle;
 
+pub use blob::Blob;
 pub use cone::Cone;
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
@@ -227,6 +230,8 @@ pub enum Shape<S: Scalar> {
     Polygon(Polygon<S>),
     /// Where a formula is less than 0, within a box.
     Implicit(Implicit<S>),
+    /// Metaballs whose fields add up.
+    Blob(Blob<S>),
     /// Many triangles, open or closed.
     Mesh(Mesh),
     /// Bicubic Bézier patches, an open surface.
@@ -248,6 +253,7 @@ macro_rules! each {
             Shape::Triangle($inner) => $body,
             Shape::Polygon($inner) => $body,
             Shape::Implicit($inner) => $body,
+            Shape::Blob($inner) => $body,
             Shape::Mesh($inner) => $body,
             Shape::Patches($inner) => $body,
         }
@@ -278,6 +284,7 @@ impl<S: Scalar> Shape<S> {
             Self::Prism(prism) => prism.spans_max() as u32,
             Self::Triangle(_) | Self::Polygon(_) => 1,
             Self::Implicit(implicit) => implicit.spans as u32,
+            Self::Blob(blob) => blob.spans_max(),
             Self::Mesh(mesh) if mesh.closed => mesh.triangles / 2,
             Self::Mesh(mesh) => mesh.triangles,
             Self::Patches(patches) => patches.hits_max() as u32,

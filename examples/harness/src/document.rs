@@ -7,7 +7,7 @@
 mod solid;
 mod texture;
 
-pub use solid::{Move, Object, Profile, Solid};
+pub use solid::{Component, Move, Object, Profile, Solid};
 pub use texture::{
     Blend, Drawn, Filter, Format, Made, Mapping, PATTERNS, Space, Stop, Texture, Transfer, Wrap,
 };

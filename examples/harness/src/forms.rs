@@ -3,10 +3,10 @@
 mod mesh;
 
 use nostray::shape::program;
-use nostray::{Form, Heights, Profile, Scalar};
+use nostray::{Form, Heights, Metaball, Profile, Scalar};
 
 use crate::assemble::vector;
-use crate::document::{self, Solid};
+use crate::document::{self, Component, Solid};
 use crate::expression::{Program, compile};
 use crate::flaw::{Flaw, Path};
 use crate::written::Several;
@@ -17,6 +17,7 @@ pub(crate) struct Stock<S: Scalar> {
     pairs: Vec<[S; 2]>,
     numbers: Vec<S>,
     code: Vec<u8>,
+    components: Vec<Metaball<S>>,
     mesh: mesh::Lists<S>,
     patches: Vec<[u32; 16]>,
 }
@@ -28,6 +29,7 @@ impl<S: Scalar> Default for Stock<S> {
             pairs: Vec::new(),
             numbers: Vec::new(),
             code: Vec::new(),
+            components: Vec::new(),
             mesh: mesh::Lists::default(),
             patches: Vec::new(),
         }
@@ -87,6 +89,11 @@ impl<S: Scalar> Stock<S> {
                 self.compile(expr, spans, &path.field("Implicit"))?;
                 let (min, max, code, numbers) = (v(min), v(max), &self.code, &self.numbers);
                 ("Implicit", Form::Implicit { min, max, code, numbers, spans })
+            }
+            Solid::Blob { threshold, ref components } => {
+                self.components.extend(components.iter().map(metaball));
+                let components = &self.components;
+                ("Blob", Form::Blob { threshold: s(threshold), components })
             }
             Solid::Mesh { .. } => {
                 self.mesh = mesh::Lists::of(leaf, &path.field("Mesh"))?;
@@ -163,4 +170,13 @@ impl<S: Scalar> Stock<S> {
         self.code = code;
         Ok(())
     }
+}
+
+fn metaball<S: Scalar>(written: &Component) -> Metaball<S> {
+    let (ends, radius, strength) = match *written {
+        Component::Sphere { center, radius, strength } => ([center; 2], radius, strength),
+        Component::Cylinder { base, top, radius, strength } => ([base, top], radius, strength),
+    };
+    let [radius, strength] = [radius, strength].map(S::from_f64);
+    Metaball { ends: ends.map(vector::<S>), radius, strength }
 }

@@ -111,6 +111,13 @@ pub enum Form<'a, S: Scalar> {
         /// would be more, the last one goes on to the last exit.
         spans: Option<u16>,
     },
+    /// Where the fields of some components add up to more than a threshold.
+    Blob {
+        /// The threshold, greater than 0.
+        threshold: S,
+        /// The components, at least one, and one at least of positive strength.
+        components: &'a [Metaball<S>],
+    },
     /// Triangles that share vertices, an open surface or a closed solid.
     Mesh(Triangles<'a, S>),
     /// Heights over a rectangle, an open surface or a closed solid; it becomes a mesh.
@@ -150,6 +157,30 @@ pub enum Profile<'a, S> {
     ///
     /// Source: E. Catmull and R. Rom, "A class of local interpolating splines" (1974).
     CatmullRom(&'a [[S; 2]]),
+}
+
+/// A component of a blob: a ball or a cylinder with round ends, whose field is `strength·(1 − r²/radius²)²` in
+/// the distance r from its centre or axis, up to its radius.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Metaball<S: Scalar> {
+    /// The ends of the axis; equal, they are the centre of a ball.
+    pub ends: [S::Vec3; 2],
+    /// How far the field reaches, greater than 0.
+    pub radius: S,
+    /// The field in the middle; where it is negative, the component takes away.
+    pub strength: S,
+}
+
+impl<S: Scalar> Metaball<S> {
+    /// A ball.
+    pub const fn ball(center: S::Vec3, radius: S, strength: S) -> Self {
+        Self { ends: [center; 2], radius, strength }
+    }
+
+    /// A cylinder with round ends.
+    pub const fn cylinder(base: S::Vec3, top: S::Vec3, radius: S, strength: S) -> Self {
+        Self { ends: [base, top], radius, strength }
+    }
 }
 
 /// Values of the corners of triangles: a table of them, and for each triangle which three it has.

@@ -1,5 +1,6 @@
 //! From a shape as people describe it to the shape that is stored, and its placement.
 
+mod blob;
 mod flat;
 mod heights;
 mod implicit;
@@ -81,6 +82,9 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
             Form::Implicit { min, max, code, numbers, spans } => {
                 let formula = Formula { corners: [min, max], code, numbers, spans };
                 self.realise_implicit(&formula, to_world)
+            }
+            Form::Blob { threshold, components } => {
+                self.realise_blob(threshold, components, to_world)
             }
             Form::Mesh(form) => Ok((self.realise_mesh(&form, site)?, None)),
             Form::HeightField(form) => Ok((self.realise_heights(&form, site)?, None)),

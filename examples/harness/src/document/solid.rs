@@ -142,6 +142,13 @@ pub enum Solid {
         #[serde(default, deserialize_with = "present")]
         spans: Option<u16>,
     },
+    /// Where the fields of some components add up to more than a threshold.
+    Blob {
+        /// The threshold, greater than 0.
+        threshold: f64,
+        /// The components.
+        components: Vec<Component>,
+    },
     /// Triangles that share points, from a file or as they are written here; an open surface or a solid.
     Mesh {
         /// A file in OBJ format, beside the scene file.
@@ -221,6 +228,38 @@ pub enum Solid {
         #[serde(default)]
         place: Vec<Move>,
     },
+}
+
+/// A component of a blob: its field is its strength in the middle and 0 from its radius on.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Component {
+    /// About a point.
+    Sphere {
+        /// The middle.
+        center: Triple,
+        /// The radius.
+        radius: f64,
+        /// The strength, which may be negative; 1 if left out.
+        #[serde(default = "one")]
+        strength: f64,
+    },
+    /// About a line from end to end, and round beyond.
+    Cylinder {
+        /// One end.
+        base: Triple,
+        /// The other.
+        top: Triple,
+        /// The radius.
+        radius: f64,
+        /// The strength, which may be negative; 1 if left out.
+        #[serde(default = "one")]
+        strength: f64,
+    },
+}
+
+fn one() -> f64 {
+    1.0
 }
 
 /// The profile of a surface of revolution: points with their distance from the axis and their height.
