@@ -41,6 +41,13 @@ const SOLIDS: &[(&str, &str)] = &[
     ),
     ("torus", "Torus(center: (0.25, 0, -0.25), major: 1, minor: 0.375)"),
     ("leaning", "Torus(center: (0, 0, 0), axis: (1, 2, -1), major: 1.25, minor: 0.3125)"),
+    (
+        "blob",
+        "Blob(threshold: 0.5, components: [Sphere(center: (-0.5, 0, 0.25), radius: 1.25), \
+         Sphere(center: (0.75, 0.5, 0), radius: 1, strength: 1.5), \
+         Cylinder(base: (-1, -1, -0.5), top: (1, -0.75, 0.5), radius: 0.5, strength: 2), \
+         Sphere(center: (-0.5, 0.25, 1), radius: 0.75, strength: -1)])",
+    ),
     ("spindle", "Torus(center: (0, 0.25, 0), axis: (1, 0, 0.5), major: 0.5, minor: 0.875)"),
 ];
 

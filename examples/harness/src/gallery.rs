@@ -40,6 +40,7 @@ pub static GALLERY: &[Entry] = &[
         "showcase",
         "a still life: mirror, glass, wine, cut solids and checkers under a spot light"
     ),
+    file!("blob", "bears of jelly: balls and rounded cylinders that run into one another"),
     file!("checker", "checkers over surfaces and through solids, nested"),
     file!("dice", "three dice, each a rounded cube less 21 balls"),
     file!("glass", "a ball, a hollow ball, a block and a bowl of clear and coloured glass"),

@@ -2,8 +2,8 @@
 //! on both sides and its shadow is seen.
 
 use nostray::{
-    Affine, Axis, Blend, Corners, Fixed, Form, Fresnel, Heights, Material, Operator, Paint,
-    Pattern, Profile, Rgb, Scalar, SceneBuilder, SceneError, Stop, Texture, Triangles,
+    Affine, Axis, Blend, Corners, Fixed, Form, Fresnel, Heights, Material, Metaball, Operator,
+    Paint, Pattern, Profile, Rgb, Scalar, SceneBuilder, SceneError, Stop, Texture, Triangles,
 };
 
 use super::{rgb, shoot, sun, tenths};
@@ -27,6 +27,7 @@ pub(super) fn trace<S: Scalar>(
     picture(shrink, sink, prism)?;
     // Costs as much as all others together.
     picture(2 * shrink, sink, implicit)?;
+    picture(shrink, sink, blob)?;
     picture(shrink, sink, hyperboloid)?;
     picture(shrink, sink, crystal)?;
     picture(shrink, sink, hill)?;
@@ -92,6 +93,19 @@ fn polygon<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), Scene
     let vertices = flat.map(|(x, y)| tenths::<S>(x, y, 0));
     let place = turned(Axis::X, -20).then(&turned(Axis::Y, 15));
     scene.leaf(Form::Polygon { vertices: &vertices }, &place, material)
+}
+
+/// Two balls that meet, a rounded cylinder through them, and a bite.
+fn blob<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneError> {
+    let (one, some) = (S::ONE, S::from_ratio(7, 10));
+    let components = [
+        Metaball::ball(tenths::<S>(-5, 0, 0), S::ONE, one),
+        Metaball::ball(tenths::<S>(4, 3, 2), some, one + S::HALF),
+        Metaball::cylinder(tenths::<S>(-8, -6, 3), tenths::<S>(8, -4, -2), some, one),
+        Metaball::ball(tenths::<S>(-2, 4, 6), some, -one),
+    ];
+    let form = Form::Blob { threshold: S::from_ratio(4, 10), components: &components };
+    scene.leaf(form, &turned(Axis::Y, 20), material)
 }
 
 fn ring<S: Scalar>(scene: &mut Builder<S>, material: u16) -> Result<(), SceneError> {
