@@ -1,6 +1,7 @@
 //! What rays meet: every solid and its combinations against oracles that share no code with them.
 
 mod accuracy;
+mod blob;
 mod coincident;
 mod conditioned;
 mod csg;

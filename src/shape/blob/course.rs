@@ -15,7 +15,7 @@ use crate::shape::{Sight, Tables};
 use crate::span::Span;
 
 /// How many parts of components are kept; where a ray meets more, all are worked out again for each piece.
-const ROOM: usize = 8;
+pub(super) const ROOM: usize = 8;
 
 /// The boundaries along a ray, in ascending order.
 pub(super) struct Course<'a, S: Scalar> {
@@ -24,7 +24,7 @@ pub(super) struct Course<'a, S: Scalar> {
     path: Path<S>,
     /// The parts that the ray meets, if there is room for them.
     kept: [Part<S::Wide>; ROOM],
-    met: u32,
+    pub(super) met: u32,
     /// The parameter of the path's origin, and how much it grows along a unit of the path.
     shift: S,
     pace: S::Wide,
