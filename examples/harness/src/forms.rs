@@ -91,9 +91,7 @@ impl<S: Scalar> Stock<S> {
                 ("Implicit", Form::Implicit { min, max, code, numbers, spans })
             }
             Solid::Blob { threshold, ref components } => {
-                self.components.extend(components.iter().map(metaball));
-                let components = &self.components;
-                ("Blob", Form::Blob { threshold: s(threshold), components })
+                ("Blob", self.blob(s(threshold), components))
             }
             Solid::Mesh { .. } => {
                 self.mesh = mesh::Lists::of(leaf, &path.field("Mesh"))?;
@@ -140,6 +138,11 @@ impl<S: Scalar> Stock<S> {
             }
             _ => return Err(Flaw::new(path, "is not a shape")),
         })
+    }
+
+    fn blob(&mut self, threshold: S, written: &[Component]) -> Form<'_, S> {
+        self.components.extend(written.iter().map(metaball));
+        Form::Blob { threshold, components: &self.components }
     }
 
     fn pairs(&mut self, written: &[Several<f64, 2>]) -> &[[S; 2]] {

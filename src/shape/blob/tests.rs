@@ -92,7 +92,7 @@ fn one_component_is_one_span() {
     let (spans, pieces, ..) = way::<f64>(&row(1, 1.0, [1.0, 1.0]), ALONG);
     assert_eq!((spans.len(), pieces), (1, 1));
     // The field is a quarter where 1 − r² is a half.
-    let half = (0.5 - 0.0625_f64 * 0.0625).sqrt();
+    let half = Real::sqrt(0.5 - 0.0625_f64 * 0.0625);
     assert!((spans[0].enter.t - (19.5 - half)).abs() <= 1e-14);
     assert!((spans[0].exit.t - (19.5 + half)).abs() <= 1e-14);
 }
