@@ -41,12 +41,7 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
                 let shape = Shape::Sphere(Sphere { center, radius: stand.scaled(radius) });
                 Ok((shape, self.stand(&stand)?))
             }
-            Form::Plane { normal, offset } => {
-                let normal = apply_transposed::<S>(&inverse, S::widen_vec(normal));
-                let offset = offset.widen() + normal.dot(to_world.offset);
-                let (normal, offset) = S::plane(normal, offset);
-                Ok((Shape::Plane(Plane { normal, offset }), None))
-            }
+            Form::Plane { normal, offset } => Ok((plane(normal, offset, &site), None)),
             Form::Box { min, max } => self.realise_box(min, max, to_world, singular),
             Form::Cylinder { base, top, radius } => {
                 let (stand, half_height) = Stand::along(base, top, to_world, at)?;
@@ -138,6 +133,14 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
             Placement::new(&stand.to_world).ok_or(SceneError::SingularPlacement { at })?;
         add_narrow(&mut self.placements, "placements", placement).map(Some)
     }
+}
+
+/// A half-space in the scene.
+fn plane<S: Scalar>(normal: S::Vec3, offset: S, site: &Site<'_, S>) -> Shape<S> {
+    let normal = apply_transposed::<S>(site.inverse, S::widen_vec(normal));
+    let offset = offset.widen() + normal.dot(site.to_world.offset);
+    let (normal, offset) = S::plane(normal, offset);
+    Shape::Plane(Plane { normal, offset })
 }
 
 /// The rows of a rotation of the local y axis into a direction that is not zero.
