@@ -217,6 +217,13 @@ pub enum SceneError {
         /// What is wrong there.
         what: &'static str,
     },
+    /// The scene is made for certain needs, and this is not among them.
+    NotNeeded {
+        /// Where.
+        at: Item,
+        /// What.
+        what: &'static str,
+    },
     /// Stated bounds do not hold their object.
     BoundsTooSmall {
         /// The object.
@@ -268,6 +275,7 @@ impl SceneError {
             Flaw::Index(_) => Self::IndexOutOfRange { at, table: "points", index, len },
             Flaw::Beyond { table, index, len } => Self::IndexOutOfRange { at, table, index, len },
             Flaw::Program(ProgramFlaw { byte, what }) => Self::Program { at, byte, what },
+            Flaw::NotNeeded => Self::NotNeeded { at, what: "this solid" },
         }
     }
 
@@ -336,6 +344,9 @@ impl fmt::Display for SceneError {
             }
             Self::Program { at, byte, what } => {
                 write!(f, "{at}: byte {byte} of the program {what}")
+            }
+            Self::NotNeeded { at, what } => {
+                write!(f, "{at}: the scene is made for certain needs, and {what} is not among them")
             }
             Self::BoundsTooSmall { at } => write!(f, "{at}: the stated bounds do not hold it"),
             Self::StackTooSmall { depth_max, limit } => {

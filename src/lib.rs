@@ -27,6 +27,7 @@ mod float;
 
 pub mod fixed_point;
 mod math;
+pub mod needs;
 #[allow(dead_code, reason = "solids of a higher degree use one basis or the other")]
 mod roots;
 

@@ -3,6 +3,7 @@
 
 use crate::color::Rgb;
 use crate::material::Material;
+use crate::needs::{self, has};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::solid::{Contact, Leaf};
@@ -20,8 +21,8 @@ pub(crate) struct Look<'a, S: Scalar> {
 
 impl<'a, S: Scalar> Look<'a, S> {
     /// The look of a face of a leaf; `None` without a material.
-    pub(crate) fn new(
-        scene: &'a Scene<'_, S>,
+    pub(crate) fn new<const NEEDS: u64>(
+        scene: &'a Scene<'_, S, NEEDS>,
         leaf: &'a Leaf<S>,
         contact: &Contact<S>,
         face: u32,
@@ -36,7 +37,11 @@ impl<'a, S: Scalar> Look<'a, S> {
 
     /// The colour.
     #[inline]
-    pub(crate) fn color(&mut self, scene: &Scene<'_, S>, tally: &mut impl Tally) -> Rgb<S> {
+    pub(crate) fn color<const NEEDS: u64>(
+        &mut self,
+        scene: &Scene<'_, S, NEEDS>,
+        tally: &mut impl Tally,
+    ) -> Rgb<S> {
         if let Some(color) = self.color {
             return color;
         }
@@ -47,13 +52,21 @@ impl<'a, S: Scalar> Look<'a, S> {
 
     /// White, or the colour of a metal.
     #[inline]
-    pub(crate) fn tint(&mut self, scene: &Scene<'_, S>, tally: &mut impl Tally) -> Rgb<S> {
+    pub(crate) fn tint<const NEEDS: u64>(
+        &mut self,
+        scene: &Scene<'_, S, NEEDS>,
+        tally: &mut impl Tally,
+    ) -> Rgb<S> {
         if self.material.metallic { self.color(scene, tally) } else { Rgb::WHITE }
     }
 
     /// The share of the diffuse reflection.
     #[inline]
-    pub(crate) fn diffuse(&mut self, scene: &Scene<'_, S>, tally: &mut impl Tally) -> S {
+    pub(crate) fn diffuse<const NEEDS: u64>(
+        &mut self,
+        scene: &Scene<'_, S, NEEDS>,
+        tally: &mut impl Tally,
+    ) -> S {
         if let Some(diffuse) = self.diffuse {
             return diffuse;
         }
@@ -64,10 +77,10 @@ impl<'a, S: Scalar> Look<'a, S> {
 
     /// A number of the material.
     #[inline]
-    pub(crate) fn number(
+    pub(crate) fn number<const NEEDS: u64>(
         &self,
         parameter: Parameter,
-        scene: &Scene<'_, S>,
+        scene: &Scene<'_, S, NEEDS>,
         tally: &mut impl Tally,
     ) -> S {
         let material = self.material;
@@ -79,14 +92,18 @@ impl<'a, S: Scalar> Look<'a, S> {
             Parameter::Reflect => material.reflect,
             Parameter::Transmit => material.transmit,
         };
-        if self.channels.is_empty() || number == S::ZERO {
+        if !has(NEEDS, needs::TEXTURES) || self.channels.is_empty() || number == S::ZERO {
             return number;
         }
         number * scene.textures().share(self.channels, parameter, &self.ground.spot, tally)
     }
 
     /// The colour and the exponent of the highlights.
-    pub(crate) fn gloss(&mut self, scene: &Scene<'_, S>, tally: &mut impl Tally) -> (Rgb<S>, S) {
+    pub(crate) fn gloss<const NEEDS: u64>(
+        &mut self,
+        scene: &Scene<'_, S, NEEDS>,
+        tally: &mut impl Tally,
+    ) -> (Rgb<S>, S) {
         let specular = self.number(Parameter::Specular, scene, tally);
         let shininess = self.number(Parameter::Shininess, scene, tally);
         (self.tint(scene, tally) * specular, shininess)
@@ -95,17 +112,17 @@ impl<'a, S: Scalar> Look<'a, S> {
     /// The unit normal that light sees, for the one that it would see without a relief; on the inner side of the
     /// leaf the relief is seen from behind.
     #[inline]
-    pub(crate) fn relief(
+    pub(crate) fn relief<const NEEDS: u64>(
         &self,
         normal: S::Dir,
         from_within: bool,
-        scene: &Scene<'_, S>,
+        scene: &Scene<'_, S, NEEDS>,
         tally: &mut impl Tally,
     ) -> S::Dir {
         let Material { diffuse, specular, reflect, transmit, .. } = *self.material;
         let matters = [diffuse, specular, reflect, transmit].iter().any(|part| *part > S::ZERO);
         let is_relief = |channel: &Channel<S>| matches!(channel, Channel::Relief { .. });
-        if !matters || !self.channels.iter().any(is_relief) {
+        if !has(NEEDS, needs::TEXTURES) || !matters || !self.channels.iter().any(is_relief) {
             return normal;
         }
         let outward = if from_within { -normal } else { normal };

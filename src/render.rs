@@ -10,6 +10,7 @@ use core::ops::Range;
 use crate::camera::Lens;
 use crate::color::Rgb;
 use crate::error::{Item, SceneError};
+use crate::needs::{self, has};
 use crate::ray::{Line, Ray, Start};
 use crate::scalar::{Number, Real, Scalar};
 use crate::scene::Scene;
@@ -92,9 +93,15 @@ struct Pending<S: Scalar> {
 /// the boundaries of one solid; a scene tells what it needs in its
 /// [`limits`](crate::scene::Limits::boundaries).
 #[derive(Clone, Debug)]
-pub struct Render<'a, S: Scalar, const RAYS: usize = 9, const BOUNDARIES: usize = 64, T: Tally = ()>
-{
-    scene: Scene<'a, S>,
+pub struct Render<
+    'a,
+    S: Scalar,
+    const RAYS: usize = 9,
+    const BOUNDARIES: usize = 64,
+    T: Tally = (),
+    const NEEDS: u64 = { needs::ALL },
+> {
+    scene: Scene<'a, S, NEEDS>,
     lens: Lens<S>,
     depth: Depth<S>,
     width: u32,
@@ -109,13 +116,15 @@ pub struct Render<'a, S: Scalar, const RAYS: usize = 9, const BOUNDARIES: usize 
     tally: T,
 }
 
-impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize> Render<'a, S, RAYS, BOUNDARIES> {
+impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, const NEEDS: u64>
+    Render<'a, S, RAYS, BOUNDARIES, (), NEEDS>
+{
     /// A picture of so many pixels, not counting what happens.
     ///
     /// # Errors
     /// As [`with_tally`](Render::with_tally).
     pub fn new(
-        scene: &Scene<'a, S>,
+        scene: &Scene<'a, S, NEEDS>,
         width: u32,
         height: u32,
         depth: Depth<S>,
@@ -124,8 +133,8 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize> Render<'a, S, RA
     }
 }
 
-impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
-    Render<'a, S, RAYS, BOUNDARIES, T>
+impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally, const NEEDS: u64>
+    Render<'a, S, RAYS, BOUNDARIES, T, NEEDS>
 {
     /// A picture of so many pixels that tells what happens.
     ///
@@ -134,7 +143,7 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
     /// negative or not finite, if the stack is smaller than `depth_max + 1`, or if a solid may
     /// need more boundaries than there is room for.
     pub fn with_tally(
-        scene: &Scene<'a, S>,
+        scene: &Scene<'a, S, NEEDS>,
         width: u32,
         height: u32,
         depth: Depth<S>,
@@ -234,7 +243,7 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
         let Some(mut surface) = Surface::new(&self.scene, &line, &hit.boundary, tally) else {
             return;
         };
-        let ratio = if passage == Passage::Touch {
+        let ratio = if passage == Passage::Touch || !has(NEEDS, needs::MIRRORS | needs::GLASS) {
             S::Wide::ONE
         } else {
             let other = if behind == here { Some(hit.object) } else { behind };
@@ -289,8 +298,8 @@ impl<'a, S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally>
 }
 
 /// The pixels in order, row by row.
-impl<S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally> Iterator
-    for Render<'_, S, RAYS, BOUNDARIES, T>
+impl<S: Scalar, const RAYS: usize, const BOUNDARIES: usize, T: Tally, const NEEDS: u64> Iterator
+    for Render<'_, S, RAYS, BOUNDARIES, T, NEEDS>
 {
     type Item = Pixel<S>;
 

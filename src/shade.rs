@@ -3,6 +3,7 @@
 use crate::color::Rgb;
 use crate::look::Look;
 use crate::material::{Fresnel, Highlight, Material};
+use crate::needs::{self, has};
 use crate::ray::{Line, Ray, Start};
 use crate::scalar::{Number, Real, Scalar, Vector};
 use crate::scene::Scene;
@@ -44,8 +45,8 @@ pub(crate) struct Branches<S: Scalar> {
 
 impl<'a, S: Scalar> Surface<'a, S> {
     /// The surface at a boundary; `None` only for one that is not of this scene.
-    pub(crate) fn new(
-        scene: &'a Scene<'_, S>,
+    pub(crate) fn new<const NEEDS: u64>(
+        scene: &'a Scene<'_, S, NEEDS>,
         line: &Line<S>,
         boundary: &Boundary<S>,
         tally: &mut impl Tally,
@@ -84,9 +85,9 @@ impl<'a, S: Scalar> Surface<'a, S> {
 
     /// The light of the lamps and the ambient light towards the viewer against `view`, with
     /// the share of the diffuse light that Fresnel's law leaves.
-    pub(crate) fn local_light(
+    pub(crate) fn local_light<const NEEDS: u64>(
         &mut self,
-        scene: &Scene<'_, S>,
+        scene: &Scene<'_, S, NEEDS>,
         view: S::Dir,
         diffuse_share: S,
         buffer: &mut [Boundary<S>],
@@ -156,14 +157,17 @@ impl<'a, S: Scalar> Surface<'a, S> {
     /// is the index of refraction on this side over that on the other.
     ///
     /// Snell's law decides the direction; beyond the critical angle all that would pass is mirrored.
-    pub(crate) fn branches(
+    pub(crate) fn branches<const NEEDS: u64>(
         &mut self,
-        scene: &Scene<'_, S>,
+        scene: &Scene<'_, S, NEEDS>,
         view: S::Dir,
         weight: Rgb<S>,
         ratio: S::Wide,
         tally: &mut impl Tally,
     ) -> Branches<S> {
+        if !has(NEEDS, needs::MIRRORS | needs::GLASS) {
+            return Branches { reflected: None, refracted: None, diffuse: S::ONE };
+        }
         let material = self.look.material;
         let mut reflect = self.look.number(Parameter::Reflect, scene, tally);
         let mut transmit = self.look.number(Parameter::Transmit, scene, tally);

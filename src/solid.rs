@@ -5,6 +5,7 @@
 //! empty left operand ends an intersection or a difference, and every further operand is
 //! only looked at where the ones before it left something.
 
+use crate::needs::{self, has};
 use crate::place::{Placement, apply};
 use crate::ray::{Line, Start};
 use crate::scalar::{Number, Real, Scalar, Vector};
@@ -55,7 +56,7 @@ pub struct Contact<S: Scalar> {
 
 /// The tables that intersection needs.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Geometry<'a, S: Scalar> {
+pub(crate) struct Geometry<'a, S: Scalar, const NEEDS: u64 = { needs::ALL }> {
     pub(crate) nodes: &'a [Node<S>],
     pub(crate) placements: &'a [Placement<S>],
     pub(crate) tables: &'a Tables<'a, S>,
@@ -77,7 +78,7 @@ impl Frame {
     const VACANT: Self = Self { operator: Operator::Union, end: 0, base: 0, result: None };
 }
 
-impl<'a, S: Scalar> Geometry<'a, S> {
+impl<'a, S: Scalar, const NEEDS: u64> Geometry<'a, S, NEEDS> {
     #[inline]
     pub(crate) fn leaf(&self, node: u32) -> Option<&'a Leaf<S>> {
         match self.nodes.get(node as usize) {
@@ -88,6 +89,9 @@ impl<'a, S: Scalar> Geometry<'a, S> {
 
     #[inline]
     pub(crate) fn placement(&self, leaf: &Leaf<S>) -> Option<&'a Placement<S>> {
+        if !has(NEEDS, needs::PLACEMENTS) {
+            return None;
+        }
         leaf.placement.and_then(|index| self.placements.get(usize::from(index)))
     }
 
@@ -117,8 +121,9 @@ impl<'a, S: Scalar> Geometry<'a, S> {
     /// The point where a ray meets a face of a leaf, drawn onto the surface.
     pub(crate) fn contact(&self, line: &Line<S>, leaf: &Leaf<S>, end: End<S>) -> Contact<S> {
         let shape = &leaf.shape;
-        let local = shape.snap(self.local_at(line, leaf, end.t), end.face, self.tables);
-        let normal = shape.normal(local, end.face, self.tables);
+        let local =
+            shape.snap_for::<NEEDS>(self.local_at(line, leaf, end.t), end.face, self.tables);
+        let normal = shape.normal_for::<NEEDS>(local, end.face, self.tables);
         let (position, normal) = match self.placement(leaf) {
             None => (local + shape.centre(), normal),
             Some(place) => (place.point(local), place.normal(normal)),
@@ -144,7 +149,7 @@ impl<'a, S: Scalar> Geometry<'a, S> {
             rounding(from) * S::Wide::from_i32(4) + rounding(S::widen_vec(place)) * S::Wide::TWO
         };
         let local_wide = S::widen_vec(local);
-        let normal = leaf.shape.normal(local, face, self.tables);
+        let normal = leaf.shape.normal_for::<NEEDS>(local, face, self.tables);
         let Some(place) = self.placement(leaf) else {
             let normal = normal.normalize();
             let moved = magnitude(normal).dot(reach(local_wide, leaf.shape.centre()));
@@ -163,8 +168,11 @@ impl<'a, S: Scalar> Geometry<'a, S> {
         let Some(leaf) = self.leaf(boundary.node) else {
             return S::Wide::ZERO;
         };
-        let local =
-            leaf.shape.snap(self.local_at(line, leaf, boundary.t), boundary.face, self.tables);
+        let local = leaf.shape.snap_for::<NEEDS>(
+            self.local_at(line, leaf, boundary.t),
+            boundary.face,
+            self.tables,
+        );
         let [moved, speed] = self.uncertainty(line, leaf, local, boundary.face);
         let speed = speed.max(least_speed(line));
         S::rounding(boundary.t.abs().widen()) * S::Wide::TWO + moved / speed
@@ -192,7 +200,7 @@ impl<'a, S: Scalar> Geometry<'a, S> {
             None => S::widen_vec(line.origin) - S::widen_vec(leaf.shape.centre()),
             Some(place) => place.local(line.origin),
         };
-        let local = leaf.shape.snap(near, end.face, self.tables);
+        let local = leaf.shape.snap_for::<NEEDS>(near, end.face, self.tables);
         let [moved, speed] = self.uncertainty(line, leaf, local, end.face);
         let [start_moved, _] = self.uncertainty(line, origin, start.local, start.face);
         let speed = speed.max(least_speed(line));
@@ -213,7 +221,7 @@ impl<'a, S: Scalar> Geometry<'a, S> {
         let sight = self.sight(node, leaf, line);
         let settle = start.filter(|start| start.node != node);
         let open = leaf.shape.is_open();
-        leaf.shape.spans_within(&sight, [low, high], |mut span| {
+        leaf.shape.spans_within::<NEEDS>(&sight, [low, high], |mut span| {
             for end in [&mut span.enter, &mut span.exit] {
                 if settle.is_some_and(|start| self.at_start(line, start, leaf, *end)) {
                     end.t = S::ZERO;

@@ -325,12 +325,13 @@ impl<S: Scalar, M: Storage> SceneBuilder<S, M> {
         let (first, end) = (self.finished.nodes, self.nodes.entries().len() as u32);
         let mut object = Object::new(first, end - first, material);
         let index = self.objects.entries().len() as u32;
-        let result = check_object(&self.parts(), index, &object).and_then(|needs| {
-            let bounds = needs.bounds;
-            let bounded = bounds != crate::bounds::Bounds::everywhere();
-            object.bounds = (bounded && !self.culls_itself(&object)).then_some(bounds);
-            add(&mut self.objects, "objects", object)
-        });
+        let result = check_object::<S, { crate::needs::ALL }>(&self.parts(), index, &object)
+            .and_then(|needs| {
+                let bounds = needs.bounds;
+                let bounded = bounds != crate::bounds::Bounds::everywhere();
+                object.bounds = (bounded && !self.culls_itself(&object)).then_some(bounds);
+                add(&mut self.objects, "objects", object)
+            });
         match result {
             Ok(_) => {
                 self.finished = Finished {

@@ -10,39 +10,53 @@ use crate::color::Rgb;
 use crate::error::{Item, SceneError};
 use crate::light::{Attenuation, Light};
 use crate::material::{Fresnel, Material};
+use crate::needs::{self, has};
 use crate::place::{Placement, apply};
 use crate::scalar::{Axis, Number, Real, Scalar, Vector};
 use crate::shape::{Shape, Triangle};
 use crate::solid::{Leaf, NESTING_MAX, Node};
 use crate::span::Operator;
+use crate::texture::Mapping;
 use texture::{check_channels, check_paint, check_texture};
 
 /// Checks all tables and works out what the scene needs.
-pub(super) fn check<S: Scalar>(parts: &Parts<'_, S>) -> Result<Limits<S>, SceneError> {
+pub(super) fn check<S: Scalar, const NEEDS: u64>(
+    parts: &Parts<'_, S>,
+) -> Result<Limits<S>, SceneError> {
     parts.camera.check().map_err(SceneError::of_camera)?;
     check_background(&parts.background)?;
     check_light_amount(Item::Ambient, "color", parts.ambient)?;
     for (index, placement) in (0..).zip(parts.placements) {
+        need::<NEEDS>(needs::PLACEMENTS, Item::Placement(index), "a placement")?;
         check_placement(Item::Placement(index), placement)?;
     }
     for (index, texture) in (0..).zip(parts.textures) {
+        need::<NEEDS>(needs::TEXTURES, Item::Texture(index), "a texture")?;
+        if texture.mapping == Mapping::Uv {
+            need::<NEEDS>(needs::COORDINATES, Item::Texture(index), "a surface's coordinates")?;
+        }
         check_texture(parts, index, texture)?;
     }
     for (index, material) in (0..).zip(parts.materials) {
-        check_material(parts, Item::Material(index), material)?;
+        check_material::<S, NEEDS>(parts, Item::Material(index), material)?;
     }
     for (index, light) in (0..).zip(parts.lights) {
         check_light(Item::Light(index), light)?;
     }
     let (mut boundaries, mut widest, mut crossings) = (0, 0, 0_u32);
     for (index, object) in (0..).zip(parts.objects) {
-        let needs = check_object(parts, index, object)?;
+        let needs = check_object::<S, NEEDS>(parts, index, object)?;
         if needs.structure.boundaries > boundaries {
             (boundaries, widest) = (needs.structure.boundaries, index);
         }
         crossings = crossings.saturating_add(needs.structure.crossings);
     }
     Ok(Limits { boundaries, widest, crossings, ..reach(parts) })
+}
+
+/// A scene that is made for certain needs asks for nothing else.
+fn need<const NEEDS: u64>(need: u64, at: Item, what: &'static str) -> Result<(), SceneError> {
+    if has(NEEDS, need) { Ok(()) } else { Err(SceneError::NotNeeded { at, what }) }
 }
 
 /// What one object needs.
@@ -72,7 +86,7 @@ impl<S: Scalar> Open<S> {
 }
 
 /// Walks the nodes of one object: they must be exactly one well-formed solid of legal leaves.
-pub(super) fn check_object<S: Scalar>(
+pub(super) fn check_object<S: Scalar, const NEEDS: u64>(
     parts: &Parts<'_, S>,
     index: u32,
     object: &Object<S>,
@@ -84,6 +98,7 @@ pub(super) fn check_object<S: Scalar>(
     for node in object.first..object.first + object.count {
         let leaf = match parts.nodes.get(node as usize) {
             Some(&Node::Operator { operator, size }) => {
+                need::<NEEDS>(needs::OPERATORS, Item::Node(node), "an operator")?;
                 // There is room: the structure is checked.
                 let _ = open.push(Open { operator, end: node + size, bounds: None });
                 continue;
@@ -91,7 +106,7 @@ pub(super) fn check_object<S: Scalar>(
             Some(Node::Leaf(leaf)) => leaf,
             None => continue,
         };
-        bounds = check_leaf(parts, node, leaf)?;
+        bounds = check_leaf::<S, NEEDS>(parts, node, leaf)?;
         // The leaf ends every operator that ends with it.
         while let Some(inner) = open.last_mut() {
             inner.take(&bounds);
@@ -109,18 +124,18 @@ pub(super) fn check_object<S: Scalar>(
 }
 
 /// Checks the numbers of a leaf whose indices are known to be legal.
-fn check_leaf<S: Scalar>(
+fn check_leaf<S: Scalar, const NEEDS: u64>(
     parts: &Parts<'_, S>,
     node: u32,
     leaf: &Leaf<S>,
 ) -> Result<Bounds<S>, SceneError> {
     let place = leaf.placement.and_then(|index| parts.placements.get(usize::from(index)));
-    let flaw = leaf.shape.check(place.is_some(), &parts.tables);
+    let flaw = leaf.shape.check_for::<NEEDS>(place.is_some(), &parts.tables);
     flaw.map_err(|flaw| {
         let (last, len) = (last_point(&leaf.shape), parts.tables.points.len() as u32);
         SceneError::of_flaw(Item::Node(node), flaw, last, len)
     })?;
-    Ok(leaf.shape.bounds(place, &parts.tables))
+    Ok(leaf.shape.bounds_for::<NEEDS>(place, &parts.tables))
 }
 
 /// The greatest index of a point that a shape names.
@@ -203,11 +218,17 @@ fn check_background<S: Scalar>(background: &Background<S>) -> Result<(), SceneEr
     }
 }
 
-fn check_material<S: Scalar>(
+fn check_material<S: Scalar, const NEEDS: u64>(
     parts: &Parts<'_, S>,
     at: Item,
     material: &Material<S>,
 ) -> Result<(), SceneError> {
+    if material.reflect != S::ZERO || material.fresnel != Fresnel::Off {
+        need::<NEEDS>(needs::MIRRORS, at, "a mirror")?;
+    }
+    if material.is_transparent() {
+        need::<NEEDS>(needs::GLASS, at, "glass")?;
+    }
     check_paint(at, material.color, parts.textures.len(), None)?;
     check_channels(parts, at, material)?;
     for (value, field) in [

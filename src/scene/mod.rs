@@ -18,6 +18,7 @@ use crate::color::Rgb;
 use crate::error::{Item, SceneError};
 use crate::light::Light;
 use crate::material::Material;
+use crate::needs;
 use crate::place::Placement;
 use crate::ray::{Line, Ray};
 use crate::scalar::Scalar;
@@ -80,6 +81,12 @@ pub struct Parts<'a, S: Scalar> {
 }
 
 impl<S: Scalar> Parts<'_, S> {
+    /// The [`needs`] of a scene of these parts, as far as they can be known when it is compiled: mirrors and glass
+    /// are among them, for they are so by their numbers.
+    pub const fn needs(&self) -> u64 {
+        needs::of_parts(self)
+    }
+
     /// Nothing, in the dark: what a `static` scene starts from.
     pub const fn seen_by(camera: Camera<S>) -> Self {
         Self {
@@ -122,8 +129,10 @@ pub struct Limits<S> {
 }
 
 /// A scene whose every number, index and limit has been checked: nothing that uses it can fail.
+///
+/// It is made for certain [`needs`], by default for all; for others there is no code.
 #[derive(Clone, Copy, Debug)]
-pub struct Scene<'a, S: Scalar> {
+pub struct Scene<'a, S: Scalar, const NEEDS: u64 = { needs::ALL }> {
     parts: Parts<'a, S>,
     limits: Limits<S>,
 }
@@ -134,10 +143,22 @@ impl<'a, S: Scalar> Scene<'a, S> {
     /// # Errors
     /// The first thing that is wrong, with its place, its field and the limit.
     pub fn new(parts: Parts<'a, S>) -> Result<Self, SceneError> {
-        let limits = check::check(&parts)?;
-        Ok(Self { parts, limits })
+        Self::limited(parts)
     }
 
+    /// Checks a scene that is made for certain [`needs`].
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its place, its field and the limit; also what the needs do not name.
+    pub fn limited<const NEEDS: u64>(
+        parts: Parts<'a, S>,
+    ) -> Result<Scene<'a, S, NEEDS>, SceneError> {
+        let limits = check::check::<S, NEEDS>(&parts)?;
+        Ok(Scene { parts, limits })
+    }
+}
+
+impl<'a, S: Scalar, const NEEDS: u64> Scene<'a, S, NEEDS> {
     /// The tables.
     pub const fn parts(&self) -> &Parts<'a, S> {
         &self.parts
@@ -203,7 +224,7 @@ impl<'a, S: Scalar> Scene<'a, S> {
     }
 
     #[inline]
-    pub(crate) const fn geometry(&self) -> Geometry<'_, S> {
+    pub(crate) const fn geometry(&self) -> Geometry<'_, S, NEEDS> {
         Geometry {
             nodes: self.parts.nodes,
             placements: self.parts.placements,
@@ -212,7 +233,7 @@ impl<'a, S: Scalar> Scene<'a, S> {
     }
 
     #[inline]
-    pub(crate) const fn textures(&self) -> Textures<'a, S> {
+    pub(crate) const fn textures(&self) -> Textures<'a, S, NEEDS> {
         let Parts { textures, stops, images, pixels, placements, .. } = self.parts;
         Textures { textures, stops, images, pixels, placements }
     }

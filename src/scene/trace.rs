@@ -5,6 +5,7 @@ use crate::color::Rgb;
 use crate::error::SceneError;
 use crate::look::Look;
 use crate::material::Material;
+use crate::needs::{self, has};
 use crate::ray::{Line, Ray};
 use crate::scalar::{Number, Real, Scalar, Vector};
 use crate::solid::{Contact, Leaf, Node};
@@ -66,7 +67,7 @@ enum Among {
     Transparent,
 }
 
-impl<'a, S: Scalar> Scene<'a, S> {
+impl<'a, S: Scalar, const NEEDS: u64> Scene<'a, S, NEEDS> {
     /// The nearest boundary along a ray from free space, if it meets any.
     ///
     /// # Errors
@@ -134,7 +135,8 @@ impl<'a, S: Scalar> Scene<'a, S> {
     /// Light goes through what fills the object.
     #[inline]
     fn fills(&self, object: &Object<S>) -> bool {
-        self.limits.transparent
+        has(NEEDS, needs::GLASS)
+            && self.limits.transparent
             && self.material(object.material).is_some_and(Material::is_transparent)
     }
 
@@ -159,6 +161,7 @@ impl<'a, S: Scalar> Scene<'a, S> {
     ) -> (bool, Option<Boundary<S>>) {
         match self.parts.nodes.get(object.first as usize) {
             Some(Node::Leaf(leaf)) => self.first_of_leaf(object.first, leaf, line, window, tally),
+            _ if !has(NEEDS, needs::OPERATORS) => (false, None),
             _ => {
                 let leaf = || tally.count(Event::LeafTest);
                 let geometry = self.geometry();
@@ -182,7 +185,7 @@ impl<'a, S: Scalar> Scene<'a, S> {
     ) -> (bool, Option<Boundary<S>>) {
         tally.count(Event::LeafTest);
         let sight = self.geometry().sight(node, leaf, line);
-        let (inside, first) = leaf.shape.first(&sight, window);
+        let (inside, first) = leaf.shape.first::<NEEDS>(&sight, window);
         let boundary = first.map(|(End { t, face }, passage)| Boundary {
             t,
             node,
@@ -215,7 +218,11 @@ impl<'a, S: Scalar> Scene<'a, S> {
                 Obstacle::Opaque => return Rgb::BLACK,
             }
         }
-        if filtered { self.filter(line, distance, buffer, tally) } else { Rgb::WHITE }
+        if has(NEEDS, needs::GLASS) && filtered {
+            self.filter(line, distance, buffer, tally)
+        } else {
+            Rgb::WHITE
+        }
     }
 
     /// What one object does to the light along a part of a ray.
@@ -230,7 +237,7 @@ impl<'a, S: Scalar> Scene<'a, S> {
         let of = |node: u32| {
             let leaf = self.geometry().leaf(node);
             let clear = leaf.and_then(|leaf| self.material(leaf.material));
-            if clear.is_some_and(Material::is_transparent) {
+            if has(NEEDS, needs::GLASS) && clear.is_some_and(Material::is_transparent) {
                 Obstacle::Filter
             } else {
                 Obstacle::Opaque
@@ -242,6 +249,9 @@ impl<'a, S: Scalar> Scene<'a, S> {
             let around =
                 if inside && self.fills(object) { Obstacle::Filter } else { Obstacle::None };
             return first.map_or(around, |boundary| of(boundary.node));
+        }
+        if !has(NEEDS, needs::OPERATORS) {
+            return Obstacle::None;
         }
         let leaf = || tally.count(Event::LeafTest);
         let spans = self.geometry().evaluate(object.first, object.count, line, buffer, leaf);
@@ -307,13 +317,17 @@ impl<'a, S: Scalar> Scene<'a, S> {
         [here, behind]: [Option<u32>; 2],
     ) -> bool {
         let material = self.geometry().leaf(boundary.node).and_then(|l| self.material(l.material));
-        boundary.passage != Passage::Touch
+        has(NEEDS, needs::GLASS)
+            && boundary.passage != Passage::Touch
             && here == behind
             && material.is_some_and(Material::is_transparent)
     }
 
     /// The share of light left after a length of what fills an object.
     pub(crate) fn absorption(&self, medium: Option<u32>, length: S) -> Rgb<S> {
+        if !has(NEEDS, needs::GLASS) {
+            return Rgb::WHITE;
+        }
         let object = medium.and_then(|index| self.parts.objects.get(index as usize));
         let Some(material) = object.and_then(|object| self.material(object.material)) else {
             return Rgb::WHITE;
@@ -346,7 +360,8 @@ impl<'a, S: Scalar> Scene<'a, S> {
         face: u32,
         normal: S::Dir,
     ) -> S::Dir {
-        let Some(shading) = leaf.shape.shading_normal(contact.local, face, &self.parts.tables)
+        let Some(shading) =
+            leaf.shape.shading_normal_for::<NEEDS>(contact.local, face, &self.parts.tables)
         else {
             return normal;
         };

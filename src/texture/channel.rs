@@ -83,7 +83,11 @@ impl Channels {
 
 impl<S: Scalar> Texture<S> {
     /// Its height and slope in space, where there is a formula for it.
-    fn slope(&self, spot: &Spot<'_, S>, placements: &[Placement<S>]) -> Option<S::WideVec> {
+    fn slope<const NEEDS: u64>(
+        &self,
+        spot: &Spot<'_, S>,
+        placements: &[Placement<S>],
+    ) -> Option<S::WideVec> {
         let plain = self.ramp.count == 0
             && self.mapping == Mapping::Solid
             && self.wrap == [Wrap::Endless; 2]
@@ -93,7 +97,7 @@ impl<S: Scalar> Texture<S> {
         if !plain {
             return None;
         }
-        let p = self.place(spot, placements);
+        let p = self.place::<NEEDS>(spot, placements);
         let Slope { gradient, .. } = self.pattern.slope(p, &self.stroke())?;
         let [wide, high, deep] = self.size.map(S::widen);
         let [x, y, z] = S::widen_vec(gradient).to_array();
@@ -125,7 +129,7 @@ impl<'a, S: Scalar> Ground<'a, S> {
     }
 }
 
-impl<S: Scalar> Textures<'_, S> {
+impl<S: Scalar, const NEEDS: u64> Textures<'_, S, NEEDS> {
     /// The share of a number that channels leave.
     pub(crate) fn share(
         &self,
@@ -163,7 +167,7 @@ impl<S: Scalar> Textures<'_, S> {
                 continue;
             };
             let formula = self.textures.get(usize::from(texture));
-            let formula = formula.and_then(|t| t.slope(&ground.spot, self.placements));
+            let formula = formula.and_then(|t| t.slope::<NEEDS>(&ground.spot, self.placements));
             let slope = match formula {
                 Some(slope) => {
                     tally.count(Event::Texture);

@@ -1,6 +1,7 @@
 //! From a point in space to the coordinates that a pattern is drawn in.
 
 use super::Spot;
+use crate::needs;
 use crate::scalar::{Axis, Number, Real, Scalar, Vector};
 
 /// Which coordinates a pattern is drawn in. All but [`Solid`](Self::Solid) are of a surface: a
@@ -113,10 +114,19 @@ impl<S: Scalar> Mapping<S> {
 
     /// The coordinates of a point; the third is 0 of those of a surface. [`Uv`](Self::Uv) is asked of the spot.
     pub fn coordinates(&self, p: S::Vec3, spot: &Spot<'_, S>) -> S::Vec3 {
+        self.coordinates_for::<{ needs::ALL }>(p, spot)
+    }
+
+    /// The same on one of the solids that are needed.
+    pub(super) fn coordinates_for<const NEEDS: u64>(
+        &self,
+        p: S::Vec3,
+        spot: &Spot<'_, S>,
+    ) -> S::Vec3 {
         let wide = S::widen_vec(p);
         let [u, v] = match *self {
             Self::Solid => return p,
-            Self::Uv => spot.uv(),
+            Self::Uv => spot.uv_for::<NEEDS>(),
             Self::Planar => [p.x(), p.y()],
             Self::Spherical => [turn::<S>(wide.x(), wide.z()), latitude::<S>(wide)],
             Self::Cylindrical => [turn::<S>(wide.x(), wide.z()), p.y()],

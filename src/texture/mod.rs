@@ -26,6 +26,7 @@ pub use pattern::Pattern;
 pub use ramp::{Blend, Ramp, STOPS_MAX, Stop};
 
 use crate::color::Rgb;
+use crate::needs::{self, has};
 use crate::place::Placement;
 use crate::scalar::{Scalar, Vector};
 use crate::shape::{Shape, Tables};
@@ -76,7 +77,16 @@ impl<S: Scalar> Spot<'_, S> {
 
     /// The surface's own coordinates; (0, 0) without a surface.
     pub fn uv(&self) -> [S; 2] {
-        self.on.map_or([S::ZERO; 2], |on| on.shape.uv(self.local, on.face, on.tables))
+        self.uv_for::<{ needs::ALL }>()
+    }
+
+    /// The same on one of the solids that are needed.
+    fn uv_for<const NEEDS: u64>(&self) -> [S; 2] {
+        if !has(NEEDS, needs::COORDINATES) {
+            return [S::ZERO; 2];
+        }
+        let uv = |on: Face<'_, S>| on.shape.uv_for::<NEEDS>(self.local, on.face, on.tables);
+        self.on.map_or([S::ZERO; 2], uv)
     }
 }
 
@@ -136,7 +146,7 @@ impl<S: Scalar> Texture<S> {
 
     /// The coordinates of a spot that the pattern is drawn in. Whatever the spot, they are finite and not so
     /// large that their squares are not.
-    fn place(&self, spot: &Spot<'_, S>, placements: &[Placement<S>]) -> [S; 3] {
+    fn place<const NEEDS: u64>(&self, spot: &Spot<'_, S>, placements: &[Placement<S>]) -> [S; 3] {
         let local = |p: S::Vec3, index: Option<u16>| match index {
             Some(index) => match placements.get(usize::from(index)) {
                 Some(placement) => S::narrow_vec(placement.local(p)),
@@ -148,7 +158,7 @@ impl<S: Scalar> Texture<S> {
             Space::Scene => spot.position,
             Space::Shape => spot.local,
         };
-        let drawn = self.mapping.coordinates(local(from, self.placement), spot);
+        let drawn = self.mapping.coordinates_for::<NEEDS>(local(from, self.placement), spot);
         let [x, y, z] = local(drawn, self.frame).to_array();
         let [wide, high, deep] = self.size;
         let far = S::from_i32(1 << 30) * S::from_i32(1 << 20);
@@ -185,7 +195,7 @@ pub struct Seen<S> {
 
 /// The textures of a scene.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Textures<'a, S: Scalar> {
+pub(crate) struct Textures<'a, S: Scalar, const NEEDS: u64> {
     pub(crate) textures: &'a [Texture<S>],
     pub(crate) stops: &'a [Stop<S>],
     pub(crate) images: &'a [Image],
@@ -193,7 +203,7 @@ pub(crate) struct Textures<'a, S: Scalar> {
     pub(crate) placements: &'a [Placement<S>],
 }
 
-impl<S: Scalar> Textures<'_, S> {
+impl<S: Scalar, const NEEDS: u64> Textures<'_, S, NEEDS> {
     /// What a paint is at a spot.
     #[inline]
     pub(crate) fn see(
@@ -204,7 +214,8 @@ impl<S: Scalar> Textures<'_, S> {
     ) -> Seen<S> {
         match paint {
             Paint::Solid(color) => Seen { color, signature: 0 },
-            Paint::Texture(index) => self.mixed(index, spot, tally),
+            Paint::Texture(index) if has(NEEDS, needs::TEXTURES) => self.mixed(index, spot, tally),
+            Paint::Texture(_) => Seen { color: Rgb::BLACK, signature: 0 },
         }
     }
 
@@ -243,7 +254,7 @@ impl<S: Scalar> Textures<'_, S> {
 
     /// What one texture is made of at a spot.
     fn sample(&self, texture: &Texture<S>, spot: &Spot<'_, S>) -> Mixture<S> {
-        let p = texture.place(spot, self.placements);
+        let p = texture.place::<NEEDS>(spot, self.placements);
         let stops = texture.ramp.stops(self.stops);
         let sample = match texture.pattern {
             Pattern::Image { image, filter } => {

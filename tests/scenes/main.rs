@@ -3,6 +3,7 @@
 mod builder;
 #[path = "../command/mod.rs"]
 mod command;
+mod needs;
 mod probe;
 mod refusals;
 mod render;

@@ -8,7 +8,7 @@ use embedded_graphics_core::draw_target::DrawTarget;
 use embedded_graphics_core::geometry::Point;
 use embedded_graphics_core::pixelcolor::Gray4;
 use nostray::display::{Look, draw_rows};
-use nostray::{Depth, Dither, Render, Scene, SceneError, Transfer};
+use nostray::{Depth, Dither, Render, Scene, SceneError, Transfer, needs};
 use sha2::{Digest, Sha256};
 
 /// The display, in pixels.
@@ -19,8 +19,11 @@ pub const HEIGHT: usize = 64;
 /// How often light may be mirrored: the ray stack has one entry more.
 const DEPTH: u16 = 4;
 
+/// What the scene asks for: for nothing else there is code in flash.
+const NEEDS: u64 = scene::PARTS.needs() & !needs::GLASS;
+
 /// A picture in the making; it is as large as everything that tracing needs.
-type Picture = Render<'static, f32, 5, 16>;
+type Picture = Render<'static, f32, 5, 16, (), NEEDS>;
 
 /// Why there is no picture.
 #[derive(Debug)]
@@ -37,7 +40,7 @@ pub enum Trouble<E> {
 /// # Errors
 /// What is wrong with the scene, or what the display says.
 pub fn show<D: DrawTarget<Color = Gray4>>(display: &mut D) -> Result<[u8; 32], Trouble<D::Error>> {
-    let scene = Scene::new(scene::PARTS).map_err(Trouble::Scene)?;
+    let scene = Scene::limited(scene::PARTS).map_err(Trouble::Scene)?;
     let depth = Depth::fixed(DEPTH);
     let picture = Picture::new(&scene, WIDTH as u32, HEIGHT as u32, depth);
     let mut hash = Sha256::new();

@@ -8,10 +8,13 @@ mod scene;
 
 use core::mem::{align_of, size_of};
 
-use nostray::{Depth, Q16, Q32, Render, Scalar, Scene, SceneError, Transfer};
+use nostray::{Depth, Q16, Q32, Render, Scalar, Scene, SceneError, Transfer, needs};
 
 /// How often light may be mirrored.
 const DEPTH: u16 = 4;
+
+/// What the scene asks for, in either format: there is no code for anything else.
+const NEEDS: u64 = scene::q16::PARTS.needs() & !needs::GLASS;
 
 /// A picture in the making, in one of the two formats.
 #[derive(Debug)]
@@ -21,9 +24,9 @@ const DEPTH: u16 = 4;
 )]
 pub enum Picture {
     /// Numbers of 32 bits.
-    Q16(Render<'static, Q16, 5, 16>),
+    Q16(Render<'static, Q16, 5, 16, (), NEEDS>),
     /// Numbers of 64 bits.
-    Q32(Render<'static, Q32, 5, 16>),
+    Q32(Render<'static, Q32, 5, 16, (), NEEDS>),
 }
 
 impl Picture {
@@ -33,10 +36,10 @@ impl Picture {
     /// If it has no pixels, or too many in a row or column.
     pub fn new(wide: bool, width: u32, height: u32) -> Result<Self, SceneError> {
         Ok(if wide {
-            let scene = Scene::new(scene::q32::PARTS)?;
+            let scene = Scene::limited(scene::q32::PARTS)?;
             Self::Q32(Render::new(&scene, width, height, Depth::fixed(DEPTH))?)
         } else {
-            let scene = Scene::new(scene::q16::PARTS)?;
+            let scene = Scene::limited(scene::q16::PARTS)?;
             Self::Q16(Render::new(&scene, width, height, Depth::fixed(DEPTH))?)
         })
     }
@@ -50,7 +53,7 @@ impl Picture {
     }
 }
 
-fn fill<S: Scalar>(render: &mut Render<'static, S, 5, 16>, bytes: &mut [u8]) -> usize {
+fn fill<S: Scalar>(render: &mut Render<'static, S, 5, 16, (), NEEDS>, bytes: &mut [u8]) -> usize {
     let mut done = 0;
     // The room first: the other way round a pixel would be taken for which there is none.
     for (room, pixel) in bytes.chunks_exact_mut(3).zip(render) {
