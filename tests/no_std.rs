@@ -17,6 +17,10 @@ use nostray::{Q16, Q32, Scalar};
 
 #[path = "no_std/src/digest.rs"]
 mod digest;
+#[path = "no_std/src/everything.rs"]
+mod everything;
+#[path = "no_std/src/lean.rs"]
+mod lean;
 #[path = "no_std/src/pictures/mod.rs"]
 mod pictures;
 
@@ -33,14 +37,14 @@ fn run(what: &str, command: &mut Command) -> Output {
 
 /// Builds the static library, for the host, as a firmware would be built, and links it into a
 /// program, leaving out what nothing refers to.
-fn program(float: bool) -> PathBuf {
+fn program(feature: Option<&str>) -> PathBuf {
     let crate_folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/no_std");
-    let name = if float { "no_std_float" } else { "no_std_fixed" };
+    let name = format!("no_std_{}", feature.unwrap_or("fixed"));
     let target_folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo
         .args(["build", "--offline", "--release", "--quiet"])
-        .args(if float { &["--features", "float"][..] } else { &[] })
+        .args(feature.map(|feature| format!("--features={feature}")))
         .arg("--manifest-path")
         .arg(crate_folder.join("Cargo.toml"))
         .arg("--target-dir")
@@ -55,7 +59,7 @@ fn program(float: bool) -> PathBuf {
     let sweep = if cfg!(target_vendor = "apple") { "-Wl,-dead_strip" } else { "-Wl,--gc-sections" };
     let mut cc = Command::new(env::var_os("CC").unwrap_or_else(|| "cc".into()));
     cc.arg(crate_folder.join("main.c")).arg(&library).arg(sweep).arg("-o").arg(&program);
-    cc.args(if float { &["-DFLOAT"][..] } else { &[] });
+    cc.args(feature.map(|feature| format!("-D{}", feature.to_uppercase())));
     run("the C compiler, which links the proof", &mut cc);
     program
 }
@@ -69,14 +73,20 @@ fn digests(program: &Path) -> Vec<String> {
 
 /// The digest that this test itself computes.
 fn hosted<S: Scalar>() -> String {
-    format!("{:016x}", digest::digest::<S>().expect("the scenes are legal"))
+    format!("{:016x}", everything::digest::<S>().expect("the scenes are legal"))
+}
+
+/// The symbols of a program.
+fn symbols(program: &Path) -> String {
+    let symbols = run("nm, which lists symbols", Command::new("nm").arg(program));
+    let symbols = String::from_utf8_lossy(&symbols.stdout).into_owned();
+    assert!(symbols.contains("nostray"), "the program has no symbols to judge by");
+    symbols
 }
 
 /// The symbols of a program that stand for a panic, text formatting or an allocation.
 fn unwelcome(program: &Path) -> Vec<String> {
-    let symbols = run("nm, which lists symbols", Command::new("nm").arg(program));
-    let symbols = String::from_utf8_lossy(&symbols.stdout);
-    assert!(symbols.contains("nostray"), "the program has no symbols to judge by");
+    let symbols = symbols(program);
     let bad = ["panicking", "_fail", "unwrap_failed", "rust_alloc", "rust_dealloc", "core3fmt"];
     let found = symbols.lines().filter(|name| bad.iter().any(|part| name.contains(part)));
     found.map(str::to_owned).collect()
@@ -110,7 +120,7 @@ fn float_instructions(program: &Path) -> Vec<String> {
 #[test]
 #[cfg(unix)]
 fn the_core_runs_without_std_and_alloc_and_cannot_panic() {
-    let program = program(true);
+    let program = program(Some("float"));
     let all = [hosted::<Q16>(), hosted::<Q32>(), hosted::<f32>(), hosted::<f64>()];
     let different: std::collections::BTreeSet<&String> = all.iter().collect();
     assert_eq!(different.len(), 4, "no two formats give the same bits");
@@ -118,12 +128,33 @@ fn the_core_runs_without_std_and_alloc_and_cannot_panic() {
     let found = unwelcome(&program);
     assert!(found.is_empty(), "the program holds a panic or an allocation:\n{}", found.join("\n"));
     assert!(float_instructions(&program).len() > 100, "the search finds float instructions");
+    needs_nothing_else(&program);
+}
+
+/// A program whose scene is made for what it needs holds nothing of textures and of solids that it does not
+/// have; a program with everything, `all`, does, so they would be found.
+#[cfg(unix)]
+fn needs_nothing_else(all: &Path) {
+    let lean = program(Some("lean"));
+    let hosted = lean::digest::<{ nostray::needs::ALL }>().expect("the scene is legal");
+    assert_eq!(Ok(hosted), lean::digest::<{ lean::NEEDS }>(), "made for less against made for all");
+    assert_eq!(digests(&lean), [format!("{hosted:016x}")], "bare against hosted");
+    let (all, lean) = (symbols(all), symbols(&lean));
+    let names = |symbols: &str, word: &str| {
+        let ours = symbols.lines().filter(|line| line.contains("nostray"));
+        ours.filter(|line| line.contains(word)).map(str::to_owned).collect::<Vec<_>>()
+    };
+    for word in ["texture", "torus", "lathe", "quadric", "implicit", "blob", "mesh", "patch"] {
+        assert!(!names(&all, word).is_empty(), "the search finds {word}");
+        let found = names(&lean, word);
+        assert!(found.is_empty(), "the program needs no {word}:\n{}", found.join("\n"));
+    }
 }
 
 #[test]
 #[cfg(all(unix, any(target_arch = "x86_64", target_arch = "aarch64")))]
 fn fixed_point_needs_no_floating_point_instruction() {
-    let program = program(false);
+    let program = program(None);
     assert_eq!(digests(&program), [hosted::<Q16>(), hosted::<Q32>()], "bare against hosted");
     let found = unwelcome(&program);
     assert!(found.is_empty(), "the program holds a panic or an allocation:\n{}", found.join("\n"));

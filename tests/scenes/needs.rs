@@ -69,10 +69,12 @@ fn compare<const NEEDS: u64, const WITHOUT: u64>(builder: &Builder) {
 
 macro_rules! solids {
     ($($name:ident: $need:expr, $form:expr;)*) => {
-        $(#[test]
+        $(
+        #[test]
         fn $name() {
             compare::<{ STAGE | $need }, { STAGE }>(&stage($form, &Affine::identity()));
-        })*
+        }
+        )*
     };
 }
 

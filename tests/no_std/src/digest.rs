@@ -1,18 +1,24 @@
-//! The digest of the pictures, for the program in C and for the test that compares the two.
+//! The digest of the light of pixels.
 
-use nostray::{Rgb, Scalar, SceneError};
+use nostray::{Rgb, Scalar};
 
-use crate::pictures;
+/// FNV-1a (Fowler, Noll, Vo) over the bits of the light of pixels.
+pub(crate) struct Hash(u64);
 
-/// FNV-1a (Fowler, Noll, Vo) over the bits of the light of every pixel of every picture.
-pub(crate) fn digest<S: Scalar>() -> Result<u64, SceneError> {
-    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
-    pictures::trace::<S>(1, &mut |color: Rgb<S>| {
+impl Hash {
+    pub(crate) const fn new() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+
+    pub(crate) fn add<S: Scalar>(&mut self, color: Rgb<S>) {
         for part in color.to_array() {
             for &byte in part.to_le_bytes().as_ref() {
-                hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+                self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
             }
         }
-    })?;
-    Ok(hash)
+    }
+
+    pub(crate) const fn value(&self) -> u64 {
+        self.0
+    }
 }
