@@ -238,6 +238,24 @@ fn the_field_repeats_after_the_period_and_not_before() {
     assert!(same < 10, "{same} places are the same elsewhere");
 }
 
+/// Near, far, negative and huge places, every fourth of them a corner of the lattice.
+#[test]
+fn a_million_places_keep_the_range_and_the_period() {
+    let mut random = Random::new(21);
+    let period = DVec3::new(-4_294_967_296.0, 8_589_934_592.0, 4_294_967_296.0);
+    let sizes = [4.0, 1e3, 1e6, 1e11, 1e18, 1e300];
+    for (index, size) in (0..1_000_000).zip(sizes.into_iter().cycle()) {
+        let p = gridded(&mut random, size);
+        let p = if index % 4 == 0 { p.floor() } else { p };
+        let value = noise::<f64>(p, 4);
+        assert!((-NOISE_MAX..=NOISE_MAX).contains(&value), "{value} at {p}");
+        // Up to there a sum on the grid is exact.
+        if size <= 1e11 {
+            assert_eq!(noise::<f64>(p + period, 4), value, "{p}");
+        }
+    }
+}
+
 #[test]
 fn corners_of_the_lattice_are_nought_and_octaves_are_not() {
     let mut random = Random::new(19);
