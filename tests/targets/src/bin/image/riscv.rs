@@ -15,11 +15,11 @@ global_asm!(
     // The floating-point unit on, if there is one.
     "li t0, 0x2000",
     "csrs mstatus, t0",
-    "j start",
+    "tail start",
     ".balign 4",
     "trap:",
     "la sp, __stack_top",
-    "j fault",
+    "tail fault",
 );
 
 #[unsafe(no_mangle)]
