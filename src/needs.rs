@@ -66,7 +66,7 @@ pub const PATCHES: u64 = 1 << 13;
 pub const BLOB: u64 = 1 << 14;
 /// Solids that are combined of others.
 pub const OPERATORS: u64 = 1 << 32;
-/// Solids in coordinates of their own.
+/// Solids and textures in coordinates of their own.
 pub const PLACEMENTS: u64 = 1 << 33;
 /// Textures, and channels that they drive.
 pub const TEXTURES: u64 = 1 << 34;
@@ -88,11 +88,14 @@ pub(crate) const fn has(needs: u64, need: u64) -> bool {
 /// are always among it.
 pub(crate) const fn of_parts<S: Scalar>(parts: &Parts<'_, S>) -> u64 {
     let mut needs = MIRRORS | GLASS;
+    // Those of textures are among them.
+    if !parts.placements.is_empty() {
+        needs |= PLACEMENTS;
+    }
     let mut nodes = parts.nodes;
     while let Some((node, rest)) = nodes.split_first() {
         needs |= match node {
             Node::Operator { .. } => OPERATORS,
-            Node::Leaf(leaf) if leaf.placement.is_some() => of_shape(&leaf.shape) | PLACEMENTS,
             Node::Leaf(leaf) => of_shape(&leaf.shape),
         };
         nodes = rest;

@@ -136,6 +136,21 @@ fn placements() {
     compare::<{ BALLS | needs::PLACEMENTS }, BALLS>(&stage(BALL, &place));
 }
 
+/// The needs of a scene in which only a texture is placed were refused by the scene itself.
+#[test]
+fn a_placement_of_a_texture_is_a_need() {
+    let scene = stage(BALL, &Affine::identity());
+    let parts = *scene.scene().expect("a scene").parts();
+    let placements = [Placement::new(&Affine::scale(DVec3::splat(2.0))).expect("a placement")];
+    let textures = [Texture { placement: Some(0), ..*parts.textures.first().expect("a texture") }];
+    let placed = Parts { placements: &placements, textures: &textures, ..parts };
+    const BALLS: u64 = STAGE | needs::SPHERE | needs::PLACEMENTS;
+    assert_eq!(placed.needs(), BALLS);
+    let all = picture::<{ needs::ALL }>(placed).expect("a picture");
+    assert_eq!(picture::<BALLS>(placed).expect("the same picture"), all);
+    assert_ne!(picture::<BALLS>(parts).expect("another picture"), all);
+}
+
 #[test]
 fn operators() {
     const BALLS: u64 = STAGE | needs::SPHERE;
